@@ -70,7 +70,8 @@ struct NormalLaw {
     const S spring_depth = depth + lag * approach;
     S result = max(spring * depth + damper * approach, zero);
     const S way = approach * h;
-    const auto separates = (approach < zero) & (spring_depth < -way), impacts = way > depth;
+    const auto separates = (approach < zero) & (spring_depth < -way);
+    const auto impacts = way > depth;
     if (!any(separates | impacts)) return result;
     if (any(separates)) result = select(separates, force_at_separation(*this, spring_depth, approach), result);
     if (any(impacts)) result = select(impacts, force_at_impact(*this, depth, approach), result);
@@ -155,7 +156,8 @@ struct FrictionLaw {
   MURO_INLINE V3<S> force(V3<S>& displacement, const V3<S>& slip, S most, S spin) const {
     V3<S> f = -(spring * displacement) - damper * slip;
     const S limit = most + held * spin, size2 = dot(f, f);
-    const auto slides = size2 > limit * limit, gives_way = (spin > S(0)) & !slides;
+    const auto slides = size2 > limit * limit;
+    const auto gives_way = (spin > S(0)) & !slides;
     if (any(gives_way)) {
       const S part = S(1) / max(limit, S(1e-300));
       displacement = select(gives_way, displacement + f * (S(h) * spin * part), displacement);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "impact.hpp"
 
-#include <algorithm>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -129,8 +129,8 @@ class ImpulsePath {
     const Vec3 u = normal_.unitOrthogonal(), v = normal_.cross(u);
     Eigen::Matrix<double, 3, 2> plane;
     plane << u, v;
-    const Vec3 friction = -plane * (plane.transpose() * inverse_mass_ * plane).inverse() *
-                          (plane.transpose() * inverse_mass_ * normal_);
+    const Vec3 friction =
+        -plane * (plane.transpose() * inverse_mass_ * plane).inverse() * (plane.transpose() * inverse_mass_ * normal_);
     const double size = friction.norm();
     return normal_ + (size > friction_ ? friction_ / size : 1) * friction;
   }
@@ -146,8 +146,7 @@ class ImpulsePath {
 bool resolve_point(ImpactPoint& p, const ImpactBody& self, const ImpactBody* other) {
   Mat3 inverse_mass = inverse_mass_at(self, p.lever);
   if (other) inverse_mass += inverse_mass_at(*other, p.other_lever);
-  const auto impulse =
-      ImpulsePath(inverse_mass, p.normal, p.friction).impulse(p.velocity, p.restitution * p.approach);
+  const auto impulse = ImpulsePath(inverse_mass, p.normal, p.friction).impulse(p.velocity, p.restitution * p.approach);
   if (!impulse || impulse->dot(p.velocity + 0.5 * inverse_mass * *impulse) > 0) return false;
   p.impulse = *impulse;
   return true;

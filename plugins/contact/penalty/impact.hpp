@@ -2,8 +2,8 @@
 // Impacts: what two bodies do to each other at the time of impact.
 //
 // Newton's law of restitution along the normal, then Coulomb's friction, which stops the slip or does as much as its
-// limit lets it; in a single point by Routh's path. The points of a contact patch act together: along their approach speeds the impulse is that of an
-// exact solution, so that an impact never gains energy, in any number of points.
+// limit lets it; in a single point by Routh's path. The points of a contact patch act together: along their approach
+// speeds the impulse is that of an exact solution, so that an impact never gains energy, in any number of points.
 #pragma once
 
 #include <algorithm>

@@ -94,7 +94,8 @@ TEST(Impacts, OfARodsEndThatSlidesAndThenSticksFollowRouthsPath) {
       px += p * part, pz += part;
       slip += (kxx * p + kxz) * part, rises += (kxz * p + kzz) * part;
     };
-    const double against = mu, until_stop = -slip / (kxx * against + kxz), until_end = (e * v - rises) / (kzz + kxz * mu);
+    const double against = mu, until_stop = -slip / (kxx * against + kxz),
+                 until_end = (e * v - rises) / (kzz + kxz * mu);
     push(against, std::min(until_stop, until_end));
     const double sticks = -std::min(mu, kxz / kxx);
     push(sticks, (e * v - rises) / (kzz + kxz * sticks));

@@ -112,8 +112,7 @@ void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
   Record& me = record(self);
   const Robot& robot = bodies_.robots[self];
   std::sort(me.touched.begin(), me.touched.end());
-  const double shared = me.shared =
-      robot.is_single_body ? 1 : bodies_.apparent_masses[self].shared_by(me.touched);
+  const double shared = me.shared = robot.is_single_body ? 1 : bodies_.apparent_masses[self].shared_by(me.touched);
   for (std::uint32_t i = 0; i < robot.body_count; ++i) {
     Mobility mobility = me.mobilities[i];
     mobility.mass *= shared;
@@ -233,7 +232,8 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     s.push -= s.along * c.solved.more;
     const double ends = of_spin.norm() - contact_geometry::least_spin;
     c.yield = ends > 0 && s.limit > 0 ? ends / s.limit : 0;
-    const double rest = 1 / (1 + c.yield * s.across);  // of a spring and damper behind one that gives way, see FrictionLaw
+    const double rest =
+        1 / (1 + c.yield * s.across);  // of a spring and damper behind one that gives way, see FrictionLaw
     s.across *= rest;
     s.spring *= rest;
   }

@@ -176,10 +176,10 @@ TEST(Penalty, APlateThatSpinsOnARobotIsSlowedByThePressureOverIt) {
   ContactScene s;
   s.add_ground(1);
   const RobotView& slab = s.add("slab", block(50, {1, 1, 0.1}, mu), {{0, 0, 0.05}, Quat::Identity()});
-  const RobotView& plate =
-      s.add("plate", single_body(with(Shape::box({side, side, 0.02}), mu),
-                                 {.mass = 1, .ixx = 0.6 * inertia, .iyy = 0.6 * inertia, .izz = inertia}),
-            {{0, 0, 0.11}, Quat::Identity()}, {Vec3::Zero(), {0, 0, 20}});
+  const RobotView& plate = s.add("plate",
+                                 single_body(with(Shape::box({side, side, 0.02}), mu),
+                                             {.mass = 1, .ixx = 0.6 * inertia, .iyy = 0.6 * inertia, .izz = inertia}),
+                                 {{0, 0, 0.11}, Quat::Identity()}, {Vec3::Zero(), {0, 0, 20}});
   s.start();
   s.run_for(0.1);
   const double before = s.twist(plate).angular.z();

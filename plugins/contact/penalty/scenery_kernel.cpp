@@ -114,9 +114,9 @@ class RobotContacts {
     V3<S> arm;  ///< m, from the base to where it is in the middle of the step, when the force acts, as seen from the
                 ///< centre
     S depth, friction;
-    S patch;             ///< number; -1 in lanes of robots that have fewer contacts
-    V3<S> way;           ///< m: in the last step, of robots that roll
-    V3<S> turn;          ///< m, of a face: slip of the middle of its cell against its own, for 1 rad/s about the normal
+    S patch;     ///< number; -1 in lanes of robots that have fewer contacts
+    V3<S> way;   ///< m: in the last step, of robots that roll
+    V3<S> turn;  ///< m, of a face: slip of the middle of its cell against its own, for 1 rad/s about the normal
   };
   /// Of each robot's contacts in a patch.
   struct PatchOf {

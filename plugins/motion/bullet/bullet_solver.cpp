@@ -236,9 +236,9 @@ void BulletSolver::add(SolverContact& c, const ConstraintRow& normal, double inv
   add_resistances(c, a, b, other_velocity.angular, surface);
 }
 
-/// In the middle of the cell of the contact. Where the patch spins, the ends of the cell move against its middle, and as
-/// long as they move faster than that, the cell does as much less than its limit as its middle is slower: rows that give
-/// way by that.
+/// In the middle of the cell of the contact. Where the patch spins, the ends of the cell move against its middle, and
+/// as long as they move faster than that, the cell does as much less than its limit as its middle is slower: rows that
+/// give way by that.
 void BulletSolver::add_friction(const SolverContact& c, BulletRobot& a, BulletRobot* b, const Twist& other_velocity,
                                 double friction, const Vec3& initial_impulse) {
   const double limit = friction * c.impulse.dot(c.point.normal) / dt_, ends = c.speed_of_ends();

@@ -239,7 +239,9 @@ void BulletWorld::find_cells(std::span<SolverContact> pair) {
         const Vec3& p = touching[i]->point.position;
         return lane::V3<double>{p.x(), p.y(), p.z()};
       },
-      [&](int i, const lane::V3<double>& shift) { touching[i]->cell = {shift.x, shift.y, shift.z}; });
+      [&](int i, const lane::V3<double>& shift) {
+        touching[i]->cell = {shift.x, shift.y, shift.z};
+      });
 }
 
 std::span<SolverContact> BulletWorld::contacts_of(std::uint32_t robot) {

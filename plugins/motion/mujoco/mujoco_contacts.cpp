@@ -201,9 +201,9 @@ double MujocoContacts::correct_for_sliding(const mjModel& m, mjData& d, const mj
     double by_ends = 0;
     if (reference.ends > 0) {
       const double away = rows_[std::size_t(row)];
-      const double pressure = is_solved                    ? d.efc_force[row]
+      const double pressure = is_solved                  ? d.efc_force[row]
                               : std::abs(away) < at_rest ? (reference.normal - away) * d.efc_D[row]
-                                                           : 0;
+                                                         : 0;
       largest_change = std::max(largest_change, soften(d, i, pressure));
       by_ends = c.friction[0] * c.friction[0] * d.efc_R[row + 1] * std::max(pressure, 0.0);
     }

@@ -80,7 +80,7 @@ class MujocoContacts {
     double max_lift = 0;  ///< m/s^2, of an impact: what stopping all sliding would lift
     double recovery = 0;  ///< m/s^2: the part of `normal` that takes an overlap back and that velocities shall not keep
     double least_softness = 0;  ///< 1/kg, of its friction
-    double ends = 0;      ///< m/s^2: what stops the ends of the cell against its middle within the step
+    double ends = 0;            ///< m/s^2: what stops the ends of the cell against its middle within the step
   };
 
   MujocoSettings settings_;

@@ -38,9 +38,7 @@ struct FoundContact {
   /// m/s: velocity of the middle of the cell against that of the point.
   Vec3 of_spin() const { return spin * normal().cross(cell); }
   /// m/s: of the ends of the cell about its middle.
-  double speed_of_ends() const {
-    return std::max(std::abs(spin) * cell.norm() - contact_geometry::least_spin, 0.0);
-  }
+  double speed_of_ends() const { return std::max(std::abs(spin) * cell.norm() - contact_geometry::least_spin, 0.0); }
   /// N, on the first: ODE's joint has its bodies in the order of the geoms, and that of the first has one.
   Vec3 force() const { return vector_of(feedback.f1); }
   /// N m, about the centre of mass.

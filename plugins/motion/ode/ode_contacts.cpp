@@ -11,18 +11,18 @@ using multibody::MotionType;
 
 namespace {
 
-constexpr double deep_softness = 0.1;      ///< of the inverse effective mass
+constexpr double deep_softness = 0.1;               ///< of the inverse effective mass
 constexpr double resting_softness_at_1_kHz = 0.03;  ///< likewise: so soft, points of a line or face share its load
-constexpr double rebound_softness = 1e-6;  ///< likewise
-constexpr double slow_correction = 1e-2;   ///< m/s: what lands may rebound so fast
-constexpr double shallow = 1e-3;           ///< m: overlaps that are taken back so slowly, without a SplitStep
-constexpr double sliding_speed = 1e-2;     ///< m/s: friction is along the slip
-constexpr double min_slip = 1e-9;          ///< m/s: below, a slip has no direction
-constexpr double min_load = 0.05;          ///< of the friction: below, a load has no direction
-constexpr double at_limit = 0.98;          ///< of the friction: what carries more may slide
-constexpr double narrowest = 0.995;        ///< of the friction: along a load at the limit
-constexpr double same_direction = 0.99;    ///< cosine: so near are normals of one line or face
-constexpr double near_limit = 0.9;         ///< of the friction: what carries more is taken to be bounded by it
+constexpr double rebound_softness = 1e-6;           ///< likewise
+constexpr double slow_correction = 1e-2;            ///< m/s: what lands may rebound so fast
+constexpr double shallow = 1e-3;                    ///< m: overlaps that are taken back so slowly, without a SplitStep
+constexpr double sliding_speed = 1e-2;              ///< m/s: friction is along the slip
+constexpr double min_slip = 1e-9;                   ///< m/s: below, a slip has no direction
+constexpr double min_load = 0.05;                   ///< of the friction: below, a load has no direction
+constexpr double at_limit = 0.98;                   ///< of the friction: what carries more may slide
+constexpr double narrowest = 0.995;                 ///< of the friction: along a load at the limit
+constexpr double same_direction = 0.99;             ///< cosine: so near are normals of one line or face
+constexpr double near_limit = 0.9;                  ///< of the friction: what carries more is taken to be bounded by it
 
 Vec3 spin_of(dGeomID geom) {
   const dBodyID body = dGeomGetBody(geom);
@@ -255,8 +255,7 @@ void OdeWorld::tell_contact(const FoundContact& found, bool to_first) {
     told.wrench.force = vector_of(to_first ? found.feedback.f1 : found.feedback.f2);
     const dBodyID body = dGeomGetBody(to_first ? geom.g1 : geom.g2);
     const Vec3 centre = vector_of(dBodyGetPosition(body)) - dt_ * vector_of(dBodyGetLinearVel(body));  // as it was then
-    told.wrench.torque =
-        found.torque(to_first) - (point - centre).cross(told.wrench.force);
+    told.wrench.torque = found.torque(to_first) - (point - centre).cross(told.wrench.force);
   } else {
     told.wrench.force.setConstant(NAN);
     told.wrench.torque.setConstant(NAN);
@@ -279,8 +278,8 @@ void OdeWorld::remember(FoundContact& found) {
     return velocity + vector_of(dBodyGetAngularVel(body)).cross(point - centre);
   };
   const double spin = normal.dot(spin_of(found.contact.geom.g1) - spin_of(found.contact.geom.g2));
-  const Vec3 velocity = velocity_of(found.contact.geom.g1) - velocity_of(found.contact.geom.g2) +
-                        spin * normal.cross(found.cell);
+  const Vec3 velocity =
+      velocity_of(found.contact.geom.g1) - velocity_of(found.contact.geom.g2) + spin * normal.cross(found.cell);
   const Vec3 friction = force - normal * pressure, slip = velocity - normal * normal.dot(velocity);
   found.load = friction / pressure;
   found.pressure = pressure;
@@ -308,13 +307,11 @@ void OdeWorld::export_contacts() {
     if (moves(*found.first)) tell_contact(found, true);
     if (moves(*found.second) && found.second->robot != found.first->robot) tell_contact(found, false);
     const bool is_known = settings_.reactions;
-    robots_[std::size_t(found.first->robot)].add_contact(*found.first,
-                                                         is_known ? vector_of(found.feedback.f1) : unknown,
-                                                         is_known ? found.torque(true) : unknown);
+    robots_[std::size_t(found.first->robot)].add_contact(
+        *found.first, is_known ? vector_of(found.feedback.f1) : unknown, is_known ? found.torque(true) : unknown);
     if (found.second->robot >= 0)
-      robots_[std::size_t(found.second->robot)].add_contact(*found.second,
-                                                            is_known ? vector_of(found.feedback.f2) : unknown,
-                                                            is_known ? found.torque(false) : unknown);
+      robots_[std::size_t(found.second->robot)].add_contact(
+          *found.second, is_known ? vector_of(found.feedback.f2) : unknown, is_known ? found.torque(false) : unknown);
   }
 }
 

@@ -37,8 +37,8 @@ double energy_of(const Inertia& inertia, const Pose& pose, const Twist& twist) {
   return 0.5 * inertia.mass * velocity.squaredNorm() + 0.5 * twist.angular.dot(spin) + inertia.mass * g * centre.z();
 }
 
-/// J: what springs of contacts at 50 Hz hold (contact.penalty, and alike in motion.articulated), of a body whose contacts
-/// have one normal.
+/// J: what springs of contacts at 50 Hz hold (contact.penalty, and alike in motion.articulated), of a body whose
+/// contacts have one normal.
 double held_by_springs(const Inertia& inertia, const Pose& pose, std::span<const Contact> contacts, double rate) {
   if (contacts.empty()) return 0;
   const double omega = std::min(2 * M_PI * 50, 0.6 * rate);
@@ -50,7 +50,8 @@ double held_by_springs(const Inertia& inertia, const Pose& pose, std::span<const
   }
   const Mat3 axes = pose.orientation.toRotationMatrix();
   const Vec3 lever = (middle - pose * inertia.com).cross(contacts[0].normal);
-  const double inverse_mass = 1 / inertia.mass + lever.dot(axes * inertia.tensor().inverse() * axes.transpose() * lever);
+  const double inverse_mass =
+      1 / inertia.mass + lever.dot(axes * inertia.tensor().inverse() * axes.transpose() * lever);
   return 0.5 * omega * omega / inverse_mass * squares;
 }
 
@@ -159,8 +160,8 @@ Outcome euler(const std::string& motion) {
   const PassiveBody body = disk.body();
   Trial t(motion, rate);
   t.add_ground(body.friction);
-  const RobotView& r = t.add("disk", test::single_body(with(body.shape, body.friction), body.inertia), body.at,
-                             body.twist);
+  const RobotView& r =
+      t.add("disk", test::single_body(with(body.shape, body.friction), body.inertia), body.at, body.twist);
   t.start();
   double angle = 0, before = 0;
   for (int i = 0; i < int(rate * seconds); ++i) {
