@@ -78,7 +78,8 @@ std::string page(const std::vector<std::string>& motions, const std::vector<std:
       "from it. Made by `./dev bench backends`.\n\n"
       "Each case has an answer from outside (a closed form, a published figure);\n"
       "`tests/conformance/motion` holds every motion that offers what a case needs to the bound. All at\n"
-      "1000 Hz (the top at 4000) with default parameters. `*`: the motion has a bound of its own, for the\n"
+      "1000 Hz with default parameters; the top at 4000, loads also at 250, gains of energy at 250, 500,\n"
+      "1000 and 4000, of which the worst stands here. `*`: the motion has a bound of its own, for the\n"
       "reason below the table. Empty: it does not offer what the case needs.\n\n| case | unit | bound |";
   for (const std::string& m : motions) out += " " + m + " |";
   out += "\n|---|---|---|";
