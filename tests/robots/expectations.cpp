@@ -87,6 +87,7 @@ constexpr Exception exceptions[] = {
     {Check::ground, "ode_quick", "lander", 0.06, "its legs sink in by what 50 iterations leave"},
     {Check::hold, "articulated", "crane", 0.07, "it topples, and its hoist takes the impact"},
     {Check::hold, "bullet", "rope", 0.13, "it falls over, and its rings take the impact"},
+    {Check::rest, "bullet", "scara", 0.03, "its base shakes under its arm, and friction of what spins gives way"},
     {Check::rest, "bullet", "forklift", 0.05, "its rear wheel creeps by 2 mm/s under 2 t"},
     {Check::hold, "bullet", "biped", 0.4, "it leans, and its ankles turn by 0.15 rad/s"},
     {Check::rest, "bullet", "biped", 0.4, "it leans, and its ankles turn by 0.15 rad/s"},

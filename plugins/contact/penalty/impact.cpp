@@ -104,7 +104,7 @@ class ImpulsePath {
       const Vec3 direction = slides ? Vec3(normal_ - friction_ * slip.normalized()) : held_;
       const double yields = normal_.dot(inverse_mass_ * direction);
       if (!(yields > 0)) return {};
-      const double part = std::min(left / yields, slides ? lasts(slip, direction, all) : left / yields);
+      const double part = std::min(left / yields, slides ? lasts(slip, direction, all / yields) : left / yields);
       sum += part * direction;
       at += part * inverse_mass_ * direction;
       if (slides && part < left / yields && across(at).norm() < 1e-6 * slip.norm()) at -= across(at);
@@ -114,14 +114,15 @@ class ImpulsePath {
 
  private:
   Vec3 across(const Vec3& v) const { return v - normal_ * normal_.dot(v); }
-  /// N s, along the normal: how long this direction of the slip may be taken for that of a piece of the path.
+  /// N s, along the normal: how long this direction of the slip may be taken for that of a piece of the path. `all`: so
+  /// long would be all of it.
   double lasts(const Vec3& slip, const Vec3& direction, double all) const {
     constexpr int pieces = 64;
     const Vec3 change = across(inverse_mass_ * direction), unit = slip.normalized();
     const double along = change.dot(unit);
     double most = along < 0 ? -slip.norm() / along : std::numeric_limits<double>::infinity();
     if ((change - along * unit).norm() > 1e-9 * change.norm())  // it turns
-      most = std::min(most, all / (pieces * normal_.dot(inverse_mass_ * normal_)));
+      most = std::min(most, all / pieces);
     return most;
   }
   /// Of what does not slide: such that it sticks, or on the cone in that direction.
@@ -147,7 +148,10 @@ bool resolve_point(ImpactPoint& p, const ImpactBody& self, const ImpactBody* oth
   Mat3 inverse_mass = inverse_mass_at(self, p.lever);
   if (other) inverse_mass += inverse_mass_at(*other, p.other_lever);
   const auto impulse = ImpulsePath(inverse_mass, p.normal, p.friction).impulse(p.velocity, p.restitution * p.approach);
-  if (!impulse || impulse->dot(p.velocity + 0.5 * inverse_mass * *impulse) > 0) return false;
+  constexpr double rounding = 1e-9;
+  if (!impulse) return false;
+  const double gained = impulse->dot(p.velocity + 0.5 * inverse_mass * *impulse);
+  if (gained > rounding * impulse->norm() * p.velocity.norm()) return false;
   p.impulse = *impulse;
   return true;
 }

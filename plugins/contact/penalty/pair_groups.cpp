@@ -216,9 +216,13 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
       s.touched = bodies_.velocity(contact.other, contact.point);
     }
     const Vec3 turn = Vec3::Map(point.turn), of_spin = point.spin * turn;
+    s.cell = turn.cross(contact.normal);
+    if (c.other_robot == no_robot) {
+      const Vec3 of_cell = bodies_.velocity(contact.other, contact.point + s.cell) - s.touched;
+      s.touched += of_cell - contact.normal * contact.normal.dot(of_cell);
+    }
     Vec3::Map(point.displacement) += context_.elapsed * (Vec3::Map(point.velocity) + of_spin);
     const Vec3 displacement = Vec3::Map(point.displacement);
-    s.cell = turn.cross(contact.normal);
     s.along = part * held;
     s.push =
         std::min(part * stiffness * (contact.depth - point.overlap + point.ahead), s.along * context_.correcting_speed);

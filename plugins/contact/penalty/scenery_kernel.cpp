@@ -532,7 +532,9 @@ class RobotContacts {
     for (run.begin = 0; run.begin < most_; run.begin = run.end) {
       run.end = run.begin + (is_joined(run.begin + 1) ? 2 : 1);
       find_bodies_and_anchors(run);
-      if (run.most_anchors <= 2)
+      if (run.most_anchors <= 1)
+        push_line<1>(run, friction, law, load, force, torque);
+      else if (run.most_anchors == 2)
         push_line<2>(run, friction, law, load, force, torque);
       else
         push_any_line(run, friction, law, load, force, torque);
@@ -613,7 +615,7 @@ class RobotContacts {
     V3<S> torque{S(0), S(0), S(0)};
     if constexpr (cells == Cells::lines) {
       const int other = is_joined(k) ? k - 1 : is_joined(k + 1) ? k + 1 : k;
-      torque = cross(part_of_line(p.at, points_[other].at), push.across);
+      if (other != k) torque = cross(part_of_line(p.at, points_[other].at), push.across);
     }
     if (cells == Cells::any && has_cells_) {
       for (const int first : {k - 1, k}) {

@@ -42,7 +42,7 @@ double ContactCell::speed_of_ends(double all) const {
 
 int ContactCells::end_of_patch(const mjData& d, int begin) {
   const mjContact& first = d.contact[begin];
-  int end = begin;
+  int end = begin + 1;
   while (end < d.ncon && d.contact[end].geom1 == first.geom1 && d.contact[end].geom2 == first.geom2 &&
          vector_of(d.contact[end].frame).dot(vector_of(first.frame)) > same_direction)
     ++end;

@@ -12,7 +12,7 @@ using multibody::MotionType;
 namespace {
 
 constexpr double deep_softness = 0.1;               ///< of the inverse effective mass
-constexpr double resting_softness_at_1_kHz = 0.03;  ///< likewise: so soft, points of a line or face share its load
+constexpr double resting_softness_at_1_kHz = 0.02;  ///< likewise: so soft, points of a line or face share its load
 constexpr double rebound_softness = 1e-6;           ///< likewise
 constexpr double slow_correction = 1e-2;            ///< m/s: what lands may rebound so fast
 constexpr double shallow = 1e-3;                    ///< m: overlaps that are taken back so slowly, without a SplitStep
@@ -37,9 +37,10 @@ void OdeWorld::find_cells() {
   FoundContact* const all = found_contacts_.data();
   for (std::size_t begin = 0, end = 0; begin < contact_count_; begin = end) {
     const FoundContact& first = all[begin];
-    for (end = begin; end < contact_count_ && all[end].first == first.first && all[end].second == first.second &&
-                      all[end].normal().dot(first.normal()) > same_direction;
-         ++end) {
+    const auto belongs = [&](const FoundContact& c) {
+      return c.first == first.first && c.second == first.second && c.normal().dot(first.normal()) > same_direction;
+    };
+    for (end = begin; end < contact_count_ && (end == begin || belongs(all[end])); ++end) {
       all[end].cell = Vec3::Zero();
       all[end].begins_patch = end == begin;
     }
@@ -129,7 +130,7 @@ void OdeWorld::describe_normal(FoundContact& found, double restitution) const {
 
 /// What rests sinks in by some micrometres, at any rate, also light links that carry a robot.
 double OdeWorld::resting_softness(const FoundContact& found) const {
-  constexpr double points = 20;
+  constexpr double points = 6;
   const double lightest = std::min(found.first->mass, found.second->mass);
   return std::max(settings_.softness, resting_softness_at_1_kHz * std::min(1.0, 1e-6 / (dt_ * dt_)) *
                                           std::min(1.0, points / (lightest * found.inverse_mass)));
@@ -190,13 +191,14 @@ void OdeWorld::describe_friction(FoundContact& found) const {
   surface.motion2 = back.dot(normal.cross(first));
 }
 
-/// Friction acts in the middle of a cell. ODE has it at the point: there it gets the speed of the middle, and what it
-/// does too much of about the normal is that of the step before. Where the patch spins, the ends of the cell move
-/// against its middle, and as long as they move faster than that, the cell does as much less than its limit as its
-/// middle is slower: it gives way by that.
+/// Where a patch spins, friction acts in the middle of a cell. ODE has it at the point: there it gets the speed of the
+/// middle, and what it does too much of about the normal is that of the step before. The ends of the cell move against
+/// its middle, and as long as they move faster than that, the cell does as much less than its limit as its middle is
+/// slower: it gives way by that.
 void OdeWorld::move_friction(FoundContact& found) const {
   found.moment.setZero();
-  if (found.cell.isZero(0) || found.friction == 0) return;
+  const double ends = found.speed_of_ends();
+  if (!(ends > 0) || found.friction == 0) return;
   dSurfaceParameters& surface = found.contact.surface;
   const Vec3 normal = found.normal(), against = -found.of_spin();
   if ((surface.mode & dContactFDir1) == 0 && !against.isZero(0)) {
@@ -212,7 +214,7 @@ void OdeWorld::move_friction(FoundContact& found) const {
   }
   const double limit = found.friction * found.pressure;
   if (!(limit > 0)) return;
-  const double yield = found.speed_of_ends() / limit;
+  const double yield = ends / limit;
   surface.slip1 += yield;
   surface.slip2 += yield;
   const Vec3 force = found.pressure * (found.load - normal * normal.dot(found.load));
