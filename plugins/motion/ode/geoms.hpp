@@ -21,6 +21,7 @@ struct GeomOwner {
   Surface surface;
   contact_geometry::ShapeExtent extent{};
   double mass = std::numeric_limits<double>::infinity();  ///< kg: of the robot
+  bool has_wheels = false;                ///< of the robot: cylinders or meshes that turn without end; nothing slides
   const std::string* scenery = nullptr;   ///< its name; null for what moves, and for meshes, whose depths are none
   ObjectId object = no_object;            ///< that has the shape
   terrain_contact::ConvexShape convex{};  ///< of a robot: what touches heightmaps

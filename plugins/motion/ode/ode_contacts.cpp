@@ -128,9 +128,11 @@ void OdeWorld::describe_normal(FoundContact& found, double restitution) const {
   surface.soft_erp = 0;
 }
 
-/// What rests sinks in by some micrometres, at any rate, also light links that carry a robot.
+/// Robots on wheels, and what spins on a face, sink in by some micrometres, at any rate, also light links that carry a
+/// robot.
 double OdeWorld::resting_softness(const FoundContact& found) const {
   constexpr double points = 6;
+  if (!found.first->has_wheels && !(found.speed_of_ends() > 0)) return settings_.softness;
   const double lightest = std::min(found.first->mass, found.second->mass);
   return std::max(settings_.softness, resting_softness_at_1_kHz * std::min(1.0, 1e-6 / (dt_ * dt_)) *
                                           std::min(1.0, points / (lightest * found.inverse_mass)));

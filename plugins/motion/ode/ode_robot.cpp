@@ -74,7 +74,15 @@ OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& 
   zero.joints.resize(model.bodies.size());
   forward_kinematics(model, zero, body_states_);
   double mass = 0;
-  for (const multibody::RigidBody& body : model.bodies) mass += body.inertia.mass;
+  bool has_wheels = false, slides = false;
+  for (const multibody::RigidBody& body : model.bodies) {
+    mass += body.inertia.mass;
+    slides = slides || body.joint == JointKind::prismatic;
+    if (body.joint != JointKind::revolute || std::isfinite(body.limits.lower) || std::isfinite(body.limits.upper))
+      continue;
+    for (const multibody::BodyShape& s : body.shapes)
+      has_wheels = has_wheels || s.shape.kind == ShapeKind::cylinder || s.shape.kind == ShapeKind::mesh;
+  }
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     add_body(i);
     for (const multibody::BodyShape& s : model.bodies[i].shapes) {
@@ -83,7 +91,7 @@ OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& 
       const dGeomID geom = create_geom(s.shape, pose, bodies_[i].id, space, meshes);
       if (!geom) continue;
       owners.push_back({std::uint32_t(owners.size()), number, std::uint32_t(i), s.loaded_link, s.shape.surface,
-                        contact_geometry::extent_of(s.shape), mass});
+                        contact_geometry::extent_of(s.shape), mass, has_wheels && !slides});
       owners.back().object = s.object;
       owners.back().convex = meshes.convex_shape(s.shape);
       dGeomSetData(geom, &owners.back());

@@ -86,6 +86,7 @@ constexpr Exception exceptions[] = {
      "forces act where bodies touch before the step"},
     {"motion.articulated", "Euler's disk gains no energy", 0.02, "at 250 Hz"},
     {"motion.mujoco", "Euler's disk gains no energy", 0.03, "forces act where bodies touch before the step"},
+    {"motion.ode", "boxes that tip over gain no energy", 2.5e-3, "at 250 Hz"},
     {"motion.ode", "Euler's disk gains no energy", 8e-3, "forces act where bodies touch before the step"},
     {"motion.simplified", "a coin that spins gains no energy", 0.01, "at 250 Hz"},
     {"motion.simplified", "a disk that rolls and falls over gains no energy", 3e-3, "at 250 Hz"},
