@@ -9,6 +9,8 @@
 
 namespace muro::contact_geometry {
 
+/// Normals of one patch differ by less than 8 degrees: its cosine.
+inline constexpr double same_direction = 0.99;
 /// m/s: of the ends of a cell about its middle; so slow a spin lets nothing go that rests.
 inline constexpr double least_spin = 5e-6;
 

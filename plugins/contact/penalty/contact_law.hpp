@@ -146,10 +146,7 @@ struct FrictionLaw {
   MURO_INLINE V3<S> force(V3<S>& displacement, const V3<S>& slip, S most) const {
     V3<S> f = -(spring * displacement) - damper * slip;
     const S size2 = dot(f, f);
-    if (const auto slides = size2 > most * most; any(slides)) {
-      f = select(slides, f * (most * (S(1) / sqrt(size2))), f);
-      displacement = select(slides, compliance * f, displacement);
-    }
+    slide(f, displacement, size2 > most * most, most, size2);
     return f;
   }
   /// The same bits as above where there is no spin.
@@ -163,11 +160,17 @@ struct FrictionLaw {
       displacement = select(gives_way, displacement + f * (S(h) * spin * part), displacement);
       f = select(gives_way, f * (most * part), f);
     }
-    if (any(slides)) {
-      f = select(slides, f * (most * (S(1) / sqrt(size2))), f);
-      displacement = select(slides, compliance * f, displacement);
-    }
+    slide(f, displacement, slides, most, size2);
     return f;
+  }
+
+ private:
+  /// What has reached its limit. `size2`: the square of its force before.
+  template <class M>
+  MURO_INLINE void slide(V3<S>& f, V3<S>& displacement, M slides, S most, S size2) const {
+    if (!any(slides)) return;
+    f = select(slides, f * (most * (S(1) / sqrt(size2))), f);
+    displacement = select(slides, compliance * f, displacement);
   }
 };
 

@@ -59,8 +59,8 @@ class ContactSolver {
   std::uint32_t add_body(const law::Mobility<double>& mobility, const Vec3& velocity, const Vec3& spin,
                          const Vec3& gained, const Vec3& turned);
   SolverContact& add_contact() { return contacts_.emplace_back(); }
-  /// The last contact: friction moves its body or the other, or neither. Call it when bodies, levers and normal are
-  /// set.
+  /// Of the last contact, when its bodies, levers, cell, normal and `touched` are set: whether friction moves neither
+  /// its body nor the other.
   void hold(bool body, bool other);
   /// Finds the forces of all contacts, in the order in which they were added.
   std::span<const SolverContact> solve();

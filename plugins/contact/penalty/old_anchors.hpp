@@ -8,7 +8,7 @@
 namespace muro::penalty::law {
 inline namespace MURO_ISA {
 
-using lane::count_of, lane::load_rows, lane::MaskOf, lane::Places;
+using lane::count_of, lane::load_rows, lane::Places;
 
 /// Friction anchors of a group from the step before: n of them, or as many as a robot may have.
 template <class S, int n>
@@ -28,25 +28,23 @@ struct OldAnchors {
   }
   /// The tangential displacement of the nearest of the first `count`; `way`: from there, m; out.
   MURO_INLINE V3<S> nearest(const V3<S>& point, int count, V3<S>& way) const {
-    V3<S> found = displacement[0], best = at[0];
-    for (int k = 1; k < count; ++k) {
-      const auto nearer = is_nearer(point, k, best);
-      found = select(nearer, displacement[k], found);
-      best = select(nearer, at[k], best);
-    }
+    V3<S> best = at[0];
+    const V3<S> found = of_nearest(displacement, point, count, best);
     way = point - best;
     return found;
   }
-  /// Whether the point is on the side of anchor k of the plane between that and another.
-  MURO_INLINE MaskOf<S> is_nearer(const V3<S>& point, int k, const V3<S>& other) const {
-    return dot(at[k] - other, (point + point) - (at[k] + other)) > S(0);
-  }
   /// The way of the nearest in the step before.
   MURO_INLINE V3<S> way_of_nearest(const V3<S>& point, int count) const {
-    V3<S> found = last_way[0], best = at[0];
+    V3<S> best = at[0];
+    return of_nearest(last_way, point, count, best);
+  }
+  /// What the nearest has of `values`. `best`: the first anchor; out: the nearest.
+  MURO_INLINE V3<S> of_nearest(const V3<S> (&values)[n], const V3<S>& point, int count, V3<S>& best) const {
+    V3<S> found = values[0];
     for (int k = 1; k < count; ++k) {
-      const auto nearer = is_nearer(point, k, best);
-      found = select(nearer, last_way[k], found);
+      // on its side of the plane between both
+      const auto nearer = dot(at[k] - best, (point + point) - (at[k] + best)) > S(0);
+      found = select(nearer, values[k], found);
       best = select(nearer, at[k], best);
     }
     return found;

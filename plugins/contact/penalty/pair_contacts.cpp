@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "overlap.hpp"
-#include "plugins/common/contact_geometry/pressure_cells.hpp"
+#include "plugins/common/contact_geometry/contact_patches.hpp"
 #include "vectors.hpp"
 
 namespace muro::penalty {
@@ -186,25 +186,20 @@ void PairContacts::update_computed(std::uint32_t self) {
   kernels_.move(known.points.data(), int(known.points.size()), context_.stiffness.h, has_lag);
 }
 
-/// Of lines and faces: adjacent contacts of two shapes with one normal.
+/// Of lines and faces.
 void PairContacts::find_cells(KnownContacts& known) {
-  const auto vector = [](const double* v) { return V3{v[0], v[1], v[2]}; };
-  const auto normal = [&](std::size_t i) { return vector(known.points[i].contact + 3); };
-  const std::size_t count = known.computed.size();
-  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+  const auto normal = [&](std::size_t i) { return Vec3(Vec3::Map(known.points[i].contact + 3)); };
+  const auto belongs = [&](std::size_t first, std::size_t i) {
+    return known.computed[i].pair == known.computed[first].pair && normal(first).dot(normal(i)) > same_direction;
+  };
+  contact_geometry::each_patch(known.computed.size(), belongs, [&](std::size_t begin, std::size_t end) {
     std::fill_n(known.points[begin].turn, 3, 0.0);
-    for (end = begin + 1; end < count && known.computed[end].pair == known.computed[begin].pair &&
-                          dot(normal(begin), normal(end)) > same_direction;)
-      ++end;
-    contact_geometry::find_shifts(
-        int(end - begin), known.computed[begin].is_of_disc,
-        [&](int i) { return vector(known.points[begin + std::size_t(i)].contact); },
-        [&](int i, const V3& shift) {
-          const V3 turn = cross(normal(begin + std::size_t(i)), shift);
-          double* const to = known.points[begin + std::size_t(i)].turn;
-          to[0] = turn.x, to[1] = turn.y, to[2] = turn.z;
+    contact_geometry::find_cells(
+        end - begin, known.computed[begin].is_of_disc, [&](std::size_t i) { return known.points[begin + i].contact; },
+        [&](std::size_t i, const Vec3& cell) {
+          Vec3::Map(known.points[begin + i].turn) = normal(begin + i).cross(cell);
         });
-  }
+  });
 }
 
 /// Sorts the contacts of a robot into patches.

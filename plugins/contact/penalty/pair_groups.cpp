@@ -234,7 +234,7 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     s.friction = contact.surface.friction;
     s.limit = s.friction * c.solved.load;
     s.push -= s.along * c.solved.more;
-    const double ends = of_spin.norm() - contact_geometry::least_spin;
+    const double ends = law::speed_of_ends(plain(of_spin));
     c.yield = ends > 0 && s.limit > 0 ? ends / s.limit : 0;
     const double rest =
         1 / (1 + c.yield * s.across);  // of a spring and damper behind one that gives way, see FrictionLaw

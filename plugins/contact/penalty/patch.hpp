@@ -2,12 +2,12 @@
 // Effective masses of two bodies where they touch, over a double or SIMD lanes of robots.
 #pragma once
 
+#include "plugins/common/contact_geometry/pressure_cells.hpp"
 #include "symmetric.hpp"
 
 namespace muro::penalty {
 
-/// Normals of one patch differ by less than 8 degrees: its cosine.
-inline constexpr double same_direction = 0.99;
+using contact_geometry::same_direction;
 
 /// Mass properties of a robot, in the frame of its base.
 struct MassProperties {

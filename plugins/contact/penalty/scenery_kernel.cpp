@@ -317,9 +317,8 @@ class RobotContacts {
       if (has_cells_) find_any_slips();
     Run run;
     for (run.begin = 0; run.begin < most_; run.begin = run.end) {
-      run.end = run.begin + 1;
-      while (run.end < most_ && !(groups_ >> run.end & 1)) ++run.end;
-      find_bodies_and_anchors(run);
+      find_end_and_bodies(run);
+      find_anchors(run);
       if (run.most_anchors == 1)  // spherical wheels and feet
         move_run<1, cells>(run, may_collide);
       else if (run.most_anchors == 2)  // cylindrical wheels and tracks
@@ -330,11 +329,15 @@ class RobotContacts {
     if constexpr (cells != Cells::none) any_spins_ = any(largest_spin_ > S(0));
     return bits(may_collide > S(0));
   }
-  MURO_INLINE void find_bodies_and_anchors(Run& run) const {
-    run.most_anchors = run.end - run.begin;
-    run.all_have_anchors = true;
+  MURO_INLINE void find_end_and_bodies(Run& run) const {
+    run.end = run.begin + 1;
+    while (is_joined(run.end)) ++run.end;
     each_contact(run.begin,
                  [&](int i, const KernelContact& c) { run.poses.at[i] = c.pose, run.twists.at[i] = c.twist; });
+  }
+  MURO_INLINE void find_anchors(Run& run) const {
+    run.most_anchors = run.end - run.begin;
+    run.all_have_anchors = true;
     if (is_uniform_) return;
     run.most_anchors = 0;
     each_contact(run.begin, [&](int i, const KernelContact& c) {
@@ -431,9 +434,7 @@ class RobotContacts {
   [[gnu::noinline]] void find_any_slips() {
     Run run;
     for (run.begin = 0; run.begin < most_; run.begin = run.end) {
-      run.end = run.begin + 1;
-      while (run.end < most_ && !(groups_ >> run.end & 1)) ++run.end;
-      find_bodies_and_anchors(run);
+      find_end_and_bodies(run);
       const V3<S> origin = load_vector(run.poses);
       const TwistOf<S> motion = load_twist(run.twists);
       for (int k = run.begin; k < run.end; ++k) {
@@ -530,8 +531,8 @@ class RobotContacts {
     NormalLaw<S> law(batch_.stiffness, of_contacts(0, zeta_of), load);
     Run run;
     for (run.begin = 0; run.begin < most_; run.begin = run.end) {
-      run.end = run.begin + (is_joined(run.begin + 1) ? 2 : 1);
-      find_bodies_and_anchors(run);
+      find_end_and_bodies(run);
+      find_anchors(run);
       if (run.most_anchors <= 1)
         push_line<1>(run, friction, law, load, force, torque);
       else if (run.most_anchors == 2)
@@ -607,7 +608,7 @@ class RobotContacts {
       torque += moment * patches_[n].normal;
     }
   }
-  /// Whether contact k is the second of a line, where there is nothing else.
+  /// Whether contacts k - 1 and k are of one group in each robot: of one line, where there is nothing else.
   MURO_INLINE bool is_joined(int k) const { return k < most_ && !(groups_ >> k & 1); }
   template <Cells cells>
   MURO_INLINE void tell_contact(int k, const Push& push, unsigned which) const {

@@ -6,9 +6,9 @@
 
 #include "muro/simd/numbers.hpp"
 #include "muro/toolkit/random.hpp"
+#include "plugins/common/contact_geometry/contact_patches.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/contact_geometry/kept_contact.hpp"
-#include "plugins/common/contact_geometry/pressure_cells.hpp"
 
 namespace muro::articulated {
 
@@ -160,33 +160,24 @@ void RobotContacts::keep_what_lasts(const TouchedBodies& bodies) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].kept = (*kept_)[i].point.data();
 }
 
-/// Of adjacent contacts of two shapes with one normal.
 void RobotContacts::find_cells(const TouchedBodies& bodies) {
-  constexpr double same_direction = 0.99;  // 8 degrees
   const auto list = *list_;
   const auto contact = [&](std::size_t i) -> const Contact& { return list[places_[i].in_list]; };
-  for (std::size_t begin = 0, end = 0; begin < contacts_.size(); begin = end) {
+  const auto belongs = [&](std::size_t begin, std::size_t i) {
+    const Contact &first = contact(begin), &c = contact(i);
+    return c.self == first.self && c.other == first.other && c.self_shape == first.self_shape &&
+           c.other_shape == first.other_shape && c.normal.dot(first.normal) > contact_geometry::same_direction;
+  };
+  contact_geometry::each_patch(contacts_.size(), belongs, [&](std::size_t begin, std::size_t end) {
     const Contact& first = contact(begin);
-    const auto goes_on = [&](const Contact& c) {
-      return c.self == first.self && c.other == first.other && c.self_shape == first.self_shape &&
-             c.other_shape == first.other_shape && c.normal.dot(first.normal) > same_direction;
-    };
-    for (end = begin + 1; end < contacts_.size() && goes_on(contact(end));) ++end;
     std::fill_n(contacts_[begin].shift, 3, 0.0);
-    if (end == begin + 1) continue;
+    if (end == begin + 1) return;
     const bool is_of_disc = contact_geometry::is_of_disc(bodies[first.self].shapes[first.self_shape],
                                                          bodies[first.other].shapes[first.other_shape]);
-    contact_geometry::find_shifts(
-        int(end - begin), is_of_disc,
-        [&](int i) {
-          const Vec3& p = contact(begin + std::size_t(i)).point;
-          return lane::V3<double>{p.x(), p.y(), p.z()};
-        },
-        [&](int i, const lane::V3<double>& shift) {
-          double* const to = contacts_[begin + std::size_t(i)].shift;
-          to[0] = shift.x, to[1] = shift.y, to[2] = shift.z;
-        });
-  }
+    contact_geometry::find_cells(
+        end - begin, is_of_disc, [&](std::size_t i) { return contact(begin + i).point.data(); },
+        [&](std::size_t i, const Vec3& cell) { std::copy_n(cell.data(), 3, contacts_[begin + i].shift); });
+  });
 }
 
 void RobotContacts::look_at_others(const TouchedBodies& bodies) {

@@ -189,22 +189,21 @@ double BulletSolver::target_velocity(const SolverContact& c, double speed, doubl
 /// Points of one line or face are alike soft, so that they share its load as the pressure over it does.
 void BulletSolver::add(std::span<SolverContact> contacts, BulletRobot& a, BulletRobot* b,
                        const multibody::BodyState& other) {
-  const auto other_velocity = [&](const SolverContact& c) -> Twist {
-    return {other.twist.at(c.point.position - other.pose.position), other.twist.angular};
-  };
+  Twist velocities[NarrowPhase::max_points];  // of the other at the points
   ConstraintRow normals[NarrowPhase::max_points];
   double sum = 0;
   int touching = 0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const SolverContact& c = contacts[i];
-    normals[i] = contact_row(c, a, b, c.point.position, other_velocity(c).linear, c.point.normal);
+    velocities[i] = {other.twist.at(c.point.position - other.pose.position), other.twist.angular};
+    normals[i] = contact_row(c, a, b, c.point.position, velocities[i].linear, c.point.normal);
     if (c.cell.isZero(0)) continue;
     sum += normals[i].inverse_effective_mass;
     ++touching;
   }
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    SolverContact& c = contacts[i];
-    add(c, normals[i], c.cell.isZero(0) ? normals[i].inverse_effective_mass : sum / touching, a, b, other_velocity(c));
+    const bool is_alone = contacts[i].cell.isZero(0);
+    add(contacts[i], normals[i], is_alone ? normals[i].inverse_effective_mass : sum / touching, a, b, velocities[i]);
   }
 }
 

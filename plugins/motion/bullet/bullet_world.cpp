@@ -9,7 +9,6 @@ using multibody::BodyState, multibody::MotionType;
 
 namespace {
 
-constexpr double same_direction = 0.99;  ///< cosine: so near are normals of one line or face
 constexpr double half_margin = 0.5 * NarrowPhase::margin;
 constexpr double fat_aabb_margin = 0.5;  ///< m: scenery is looked up anew when a robot has moved so far
 
@@ -228,20 +227,16 @@ void BulletWorld::find_contacts(double dt) {
 
 void BulletWorld::find_cells(std::span<SolverContact> pair) {
   SolverContact* touching[NarrowPhase::max_points];
-  int count = 0;
+  std::size_t count = 0;
   for (SolverContact& c : pair)
-    if (c.point.gap < 0 && (count == 0 || c.point.normal.dot(touching[0]->point.normal) > same_direction))
+    if (c.point.gap < 0 &&
+        (count == 0 || c.point.normal.dot(touching[0]->point.normal) > contact_geometry::same_direction))
       touching[count++] = &c;
   if (count < 2) return;
-  contact_geometry::find_shifts(
+  contact_geometry::find_cells(
       count, contact_geometry::is_of_disc(pair[0].a->extent, pair[0].b->extent),
-      [&](int i) {
-        const Vec3& p = touching[i]->point.position;
-        return lane::V3<double>{p.x(), p.y(), p.z()};
-      },
-      [&](int i, const lane::V3<double>& shift) {
-        touching[i]->cell = {shift.x, shift.y, shift.z};
-      });
+      [&](std::size_t i) { return touching[i]->point.position.data(); },
+      [&](std::size_t i, const Vec3& cell) { touching[i]->cell = cell; });
 }
 
 std::span<SolverContact> BulletWorld::contacts_of(std::uint32_t robot) {

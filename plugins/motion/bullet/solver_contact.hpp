@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "narrow_phase.hpp"
-#include "plugins/common/contact_geometry/pressure_cells.hpp"
+#include "plugins/common/contact_geometry/contact_patches.hpp"
 
 namespace muro::bullet {
 
@@ -29,9 +26,7 @@ struct SolverContact {
     return velocity - point.normal * point.normal.dot(velocity);
   }
   /// m/s: of the ends of the cell about its middle.
-  double speed_of_ends() const {
-    return std::max(std::abs(relative_spin) * cell.norm() - contact_geometry::least_spin, 0.0);
-  }
+  double speed_of_ends() const { return contact_geometry::speed_of_ends(relative_spin, cell); }
 };
 
 }  // namespace muro::bullet

@@ -2,15 +2,10 @@
 #include "contact_cells.hpp"
 
 #include <algorithm>
-#include <cmath>
-
-#include "plugins/common/contact_geometry/pressure_cells.hpp"
 
 namespace muro::mujoco {
 
 namespace {
-
-constexpr double same_direction = 0.99;  ///< cosine: so near are normals of one line or face
 
 /// The matrices of constraints may be sparse.
 struct Entry {
@@ -35,31 +30,6 @@ void each_dof(const mjModel& m, int body, const Sink& sink) {
 }
 
 }  // namespace
-
-double ContactCell::speed_of_ends(double all) const {
-  return std::max(std::abs(all) * shift.norm() - contact_geometry::least_spin, 0.0);
-}
-
-int ContactCells::end_of_patch(const mjData& d, int begin) {
-  const mjContact& first = d.contact[begin];
-  int end = begin + 1;
-  while (end < d.ncon && d.contact[end].geom1 == first.geom1 && d.contact[end].geom2 == first.geom2 &&
-         vector_of(d.contact[end].frame).dot(vector_of(first.frame)) > same_direction)
-    ++end;
-  return end;
-}
-
-void ContactCells::find_shifts(const mjData& d, int begin, int end, bool is_of_disc) {
-  contact_geometry::find_shifts(
-      end - begin, is_of_disc,
-      [&](int i) {
-        const mjtNum* p = d.contact[begin + i].pos;
-        return lane::V3<double>{p[0], p[1], p[2]};
-      },
-      [&](int i, const lane::V3<double>& shift) {
-        cells_[std::size_t(begin + i)].shift = {shift.x, shift.y, shift.z};
-      });
-}
 
 void ContactCells::move_friction(const mjModel& m, mjData& d) {
   for (int i = 0; i < d.ncon; ++i) {

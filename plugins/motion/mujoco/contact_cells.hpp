@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mujoco_library.hpp"
+#include "plugins/common/contact_geometry/contact_patches.hpp"
 
 namespace muro::mujoco {
 
@@ -13,9 +14,6 @@ namespace muro::mujoco {
 struct ContactCell {
   Vec3 shift = Vec3::Zero();  ///< m: from the point to the middle of its cell
   double spin = 0;            ///< rad/s: of the second body over the first about the normal, by degrees of freedom
-
-  /// m/s: of the ends of the cell about its middle, at a spin of `all` (rad/s).
-  double speed_of_ends(double all) const;
 };
 
 class ContactCells {
@@ -23,21 +21,24 @@ class ContactCells {
   /// Of all contacts that were found. `is_of_disc(contact)`: see disc_contact.hpp.
   template <class IsOfDisc>
   void find(const mjData& d, const IsOfDisc& is_of_disc) {
+    const auto belongs = [&d](std::size_t begin, std::size_t i) {
+      const mjContact &first = d.contact[begin], &c = d.contact[i];
+      return c.geom1 == first.geom1 && c.geom2 == first.geom2 &&
+             vector_of(c.frame).dot(vector_of(first.frame)) > contact_geometry::same_direction;
+    };
     cells_.assign(std::size_t(d.ncon), {});
-    for (int begin = 0, end = 0; begin < d.ncon; begin = end) {
-      end = end_of_patch(d, begin);
-      if (end > begin + 1) find_shifts(d, begin, end, is_of_disc(d.contact[begin]));
-    }
+    contact_geometry::each_patch(cells_.size(), belongs, [&](std::size_t begin, std::size_t end) {
+      if (end == begin + 1) return;
+      contact_geometry::find_cells(
+          end - begin, is_of_disc(d.contact[begin]), [&](std::size_t i) { return d.contact[begin + i].pos; },
+          [&](std::size_t i, const Vec3& shift) { cells_[begin + i].shift = shift; });
+    });
   }
   /// After mj_makeConstraint: moves friction of each contact into the middle of its cell.
   void move_friction(const mjModel& m, mjData& d);
   const ContactCell& operator[](int contact) const { return cells_[std::size_t(contact)]; }
 
  private:
-  /// Adjacent contacts of two geoms with one normal.
-  static int end_of_patch(const mjData& d, int begin);
-  void find_shifts(const mjData& d, int begin, int end, bool is_of_disc);
-
   std::vector<ContactCell> cells_;
 };
 

@@ -131,7 +131,8 @@ void MujocoContacts::set_reference(const mjModel& m, mjData& d, int id, int row,
   const ContactCell& cell = cells_[id];
   ContactVelocity speed = external_velocity(c, cell);
   // PGS has its matrix already
-  const double ends = c.dim == 3 && m.opt.solver != mjSOL_PGS ? cell.speed_of_ends(cell.spin + speed[3]) : 0;
+  const bool may_yield = c.dim == 3 && m.opt.solver != mjSOL_PGS;
+  const double ends = may_yield ? contact_geometry::speed_of_ends(cell.spin + speed[3], cell.shift) : 0;
   for (int k = 0; k < c.dim; ++k) speed[k] += d.efc_vel[row + k];
   mjtNum* target = d.efc_aref + row;
   const double restitution = pair_surface(a.surface, b.surface, settings_.friction_rule).restitution;

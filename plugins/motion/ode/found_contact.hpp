@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "geoms.hpp"
-#include "plugins/common/contact_geometry/pressure_cells.hpp"
+#include "plugins/common/contact_geometry/contact_patches.hpp"
 
 namespace muro::ode {
 
@@ -14,7 +11,6 @@ struct FoundContact {
   dContact contact{};
   const GeomOwner *first = nullptr, *second = nullptr;  ///< the first belongs to a robot of this world
   Vec3 velocity = Vec3::Zero();  ///< m/s: of the first against the second at the point, when the step begins
-  bool begins_patch = true;      ///< it is the first of a line or face
   double inverse_mass = 0;       ///< 1/kg: inverse effective mass along the normal, the mean of its patch
   double friction = 0;           ///< of the pair
   bool is_rebound = false;       ///< restitution acts
@@ -38,7 +34,7 @@ struct FoundContact {
   /// m/s: velocity of the middle of the cell against that of the point.
   Vec3 of_spin() const { return spin * normal().cross(cell); }
   /// m/s: of the ends of the cell about its middle.
-  double speed_of_ends() const { return std::max(std::abs(spin) * cell.norm() - contact_geometry::least_spin, 0.0); }
+  double speed_of_ends() const { return contact_geometry::speed_of_ends(spin, cell); }
   /// N, on the first: ODE's joint has its bodies in the order of the geoms, and that of the first has one.
   Vec3 force() const { return vector_of(feedback.f1); }
   /// N m, about the centre of mass.

@@ -2,7 +2,6 @@
 // Shapes as ODE collides them.
 #pragma once
 
-#include <limits>
 #include <optional>
 
 #include "muro/scene.hpp"
@@ -20,8 +19,6 @@ struct GeomOwner {
   std::uint32_t loaded_link = 0;  ///< see BodyShape
   Surface surface;
   contact_geometry::ShapeExtent extent{};
-  double mass = std::numeric_limits<double>::infinity();  ///< kg: of the robot
-  bool has_wheels = false;                ///< of the robot: cylinders or meshes that turn without end; nothing slides
   const std::string* scenery = nullptr;   ///< its name; null for what moves, and for meshes, whose depths are none
   ObjectId object = no_object;            ///< that has the shape
   terrain_contact::ConvexShape convex{};  ///< of a robot: what touches heightmaps

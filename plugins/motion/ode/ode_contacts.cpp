@@ -21,7 +21,6 @@ constexpr double min_slip = 1e-9;                   ///< m/s: below, a slip has 
 constexpr double min_load = 0.05;                   ///< of the friction: below, a load has no direction
 constexpr double at_limit = 0.98;                   ///< of the friction: what carries more may slide
 constexpr double narrowest = 0.995;                 ///< of the friction: along a load at the limit
-constexpr double same_direction = 0.99;             ///< cosine: so near are normals of one line or face
 constexpr double near_limit = 0.9;                  ///< of the friction: what carries more is taken to be bounded by it
 
 Vec3 spin_of(dGeomID geom) {
@@ -31,34 +30,38 @@ Vec3 spin_of(dGeomID geom) {
 
 }  // namespace
 
-/// Adjacent contacts of two geoms with one normal are ends of a line or corners of a face, over which friction is
-/// spread.
-void OdeWorld::find_cells() {
+/// 1/kg: inverse effective mass along the normal.
+double OdeWorld::inverse_mass_of(const FoundContact& found) const {
+  double sum = 0;
+  for (const GeomOwner* owner : {found.first, found.second})
+    if (owner->robot >= 0)
+      sum += robots_[std::size_t(owner->robot)].inverse_effective_mass(owner->body, found.point(), found.normal());
+  return sum;
+}
+
+/// Friction is spread over lines and faces. Their points are alike soft, so that they share the load as the pressure
+/// over it does.
+void OdeWorld::find_patches() {
   FoundContact* const all = found_contacts_.data();
-  for (std::size_t begin = 0, end = 0; begin < contact_count_; begin = end) {
-    const FoundContact& first = all[begin];
-    const auto belongs = [&](const FoundContact& c) {
-      return c.first == first.first && c.second == first.second && c.normal().dot(first.normal()) > same_direction;
-    };
-    for (end = begin; end < contact_count_ && (end == begin || belongs(all[end])); ++end) {
-      all[end].cell = Vec3::Zero();
-      all[end].begins_patch = end == begin;
-    }
-    contact_geometry::find_shifts(
-        int(end - begin), contact_geometry::is_of_disc(first.first->extent, first.second->extent),
-        [&](int i) {
-          const dReal* p = all[begin + std::size_t(i)].contact.geom.pos;
-          return lane::V3<double>{p[0], p[1], p[2]};
-        },
-        [&](int i, const lane::V3<double>& shift) {
-          all[begin + std::size_t(i)].cell = {shift.x, shift.y, shift.z};
-        });
-  }
+  const auto belongs = [&](std::size_t begin, std::size_t i) {
+    const FoundContact &first = all[begin], &c = all[i];
+    return c.first == first.first && c.second == first.second &&
+           c.normal().dot(first.normal()) > contact_geometry::same_direction;
+  };
+  contact_geometry::each_patch(contact_count_, belongs, [&](std::size_t begin, std::size_t end) {
+    const std::span<FoundContact> patch(all + begin, end - begin);
+    double sum = 0;
+    for (const FoundContact& c : patch) sum += inverse_mass_of(c);
+    for (FoundContact& c : patch) c.inverse_mass = sum / double(patch.size()), c.cell.setZero();
+    contact_geometry::find_cells(
+        patch.size(), contact_geometry::is_of_disc(patch[0].first->extent, patch[0].second->extent),
+        [&](std::size_t i) { return patch[i].contact.geom.pos; },
+        [&](std::size_t i, const Vec3& cell) { patch[i].cell = cell; });
+  });
 }
 
 void OdeWorld::describe_contacts() {
-  find_cells();
-  find_inverse_masses();
+  find_patches();
   for (std::size_t i = 0; i < contact_count_; ++i) {
     FoundContact& found = found_contacts_[i];
     const dContactGeom& geom = found.contact.geom;
@@ -83,21 +86,6 @@ void OdeWorld::describe_contacts() {
       surface.rho = surface.rho2 = pair.rolling_resistance;
       surface.rhoN = pair.spinning_resistance;
     }
-  }
-}
-
-/// Points of one line or face are alike soft, so that they share its load as the pressure over it does.
-void OdeWorld::find_inverse_masses() {
-  const std::span<FoundContact> all = std::span(found_contacts_).first(contact_count_);
-  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-    double sum = 0;
-    for (end = begin; end < all.size() && (end == begin || !all[end].begins_patch); ++end) {
-      for (const GeomOwner* owner : {all[end].first, all[end].second})
-        if (owner->robot >= 0)
-          sum += robots_[std::size_t(owner->robot)].inverse_effective_mass(owner->body, all[end].point(),
-                                                                           all[end].normal());
-    }
-    for (std::size_t i = begin; i < end; ++i) all[i].inverse_mass = sum / double(end - begin);
   }
 }
 
@@ -132,8 +120,10 @@ void OdeWorld::describe_normal(FoundContact& found, double restitution) const {
 /// robot.
 double OdeWorld::resting_softness(const FoundContact& found) const {
   constexpr double points = 6;
-  if (!found.first->has_wheels && !(found.speed_of_ends() > 0)) return settings_.softness;
-  const double lightest = std::min(found.first->mass, found.second->mass);
+  const OdeRobot& robot = robots_[std::size_t(found.first->robot)];
+  if (!robot.has_wheels() && !(found.speed_of_ends() > 0)) return settings_.softness;
+  double lightest = robot.model().mass;
+  if (found.second->robot >= 0) lightest = std::min(lightest, robots_[std::size_t(found.second->robot)].model().mass);
   return std::max(settings_.softness, resting_softness_at_1_kHz * std::min(1.0, 1e-6 / (dt_ * dt_)) *
                                           std::min(1.0, points / (lightest * found.inverse_mass)));
 }
@@ -207,12 +197,11 @@ void OdeWorld::move_friction(FoundContact& found) const {
     surface.mode |= dContactFDir1;
     std::copy_n(against.normalized().eval().data(), 3, found.contact.fdir1);
   }
-  const auto is_set = [&](int which) { return (surface.mode & which) != 0; };
-  if (is_set(dContactFDir1)) {
+  if ((surface.mode & dContactFDir1) != 0) {  // what spins has no drift to take back
     const Vec3 first = vector_of(found.contact.fdir1);
-    surface.motion1 = (is_set(dContactMotion1) ? surface.motion1 : 0) + against.dot(first);
-    surface.motion2 = (is_set(dContactMotion2) ? surface.motion2 : 0) + against.dot(normal.cross(first));
     surface.mode |= dContactMotion1 | dContactMotion2;
+    surface.motion1 = against.dot(first);
+    surface.motion2 = against.dot(normal.cross(first));
   }
   const double limit = found.friction * found.pressure;
   if (!(limit > 0)) return;

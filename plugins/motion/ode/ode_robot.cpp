@@ -47,6 +47,15 @@ bool may_have_rotor(const RigidBody& body) {
          (body.joint != JointKind::fixed && body.drive == DriveMode::effort && body.leader < 0);
 }
 
+bool is_wheel(const RigidBody& body) {
+  if (body.joint != JointKind::revolute || std::isfinite(body.limits.lower) || std::isfinite(body.limits.upper))
+    return false;
+  return std::any_of(body.shapes.begin(), body.shapes.end(), [](const multibody::BodyShape& s) {
+    return s.shape.kind == ShapeKind::cylinder || s.shape.kind == ShapeKind::mesh;
+  });
+}
+bool slides(const RigidBody& body) { return body.joint == JointKind::prismatic; }
+
 }  // namespace
 
 bool OdeRobot::keeps_rotors(const multibody::RobotModel& model, bool exact) {
@@ -68,21 +77,13 @@ OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& 
       settings_(settings),
       rotates_exactly_(settings.exact_attitude && model.bodies.size() == 1 && !model.fixed_base),
       keeps_rotors_(keeps_rotors(model, settings.exact)),
+      has_wheels_(std::any_of(model.bodies.begin(), model.bodies.end(), is_wheel) &&
+                  std::none_of(model.bodies.begin(), model.bodies.end(), slides)),
       history_(state.memory.last(ContactHistory::size_of(model))),
       body_states_(model.bodies.size()) {
   multibody::RobotState zero;  // joints are made where all of them are at 0
   zero.joints.resize(model.bodies.size());
   forward_kinematics(model, zero, body_states_);
-  double mass = 0;
-  bool has_wheels = false, slides = false;
-  for (const multibody::RigidBody& body : model.bodies) {
-    mass += body.inertia.mass;
-    slides = slides || body.joint == JointKind::prismatic;
-    if (body.joint != JointKind::revolute || std::isfinite(body.limits.lower) || std::isfinite(body.limits.upper))
-      continue;
-    for (const multibody::BodyShape& s : body.shapes)
-      has_wheels = has_wheels || s.shape.kind == ShapeKind::cylinder || s.shape.kind == ShapeKind::mesh;
-  }
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     add_body(i);
     for (const multibody::BodyShape& s : model.bodies[i].shapes) {
@@ -91,7 +92,7 @@ OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& 
       const dGeomID geom = create_geom(s.shape, pose, bodies_[i].id, space, meshes);
       if (!geom) continue;
       owners.push_back({std::uint32_t(owners.size()), number, std::uint32_t(i), s.loaded_link, s.shape.surface,
-                        contact_geometry::extent_of(s.shape), mass, has_wheels && !slides});
+                        contact_geometry::extent_of(s.shape)});
       owners.back().object = s.object;
       owners.back().convex = meshes.convex_shape(s.shape);
       dGeomSetData(geom, &owners.back());

@@ -35,6 +35,8 @@ class OdeRobot {
   double inverse_effective_mass(std::size_t body, const Vec3& point, const Vec3& normal) const;
   /// m/s^2: of the body's centre of mass by gravity and what acts on it from outside, without joints and contacts.
   Vec3 free_acceleration(std::size_t body) const;
+  /// Cylinders or meshes of it turn without end, and nothing slides.
+  bool has_wheels() const { return has_wheels_; }
   std::size_t body_count() const { return bodies_.size(); }
   dBodyID body_id(std::size_t body) const { return bodies_[body].id; }
   ContactHistory& history() { return history_; }
@@ -89,6 +91,7 @@ class OdeRobot {
   double dt_ = 0;                 ///< s, of a step
   bool rotates_exactly_ = false;  ///< see OdeSettings::exact_attitude
   bool keeps_rotors_ = false;     ///< their speeds are in the memory
+  bool has_wheels_ = false;
   multibody::MotionType motion_type_ = multibody::MotionType::dynamic;
   std::deque<OdeBody> bodies_;        ///< one per body
   bool bodies_match_memory_ = false;  ///< they are where the memory says

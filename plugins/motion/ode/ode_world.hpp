@@ -45,8 +45,8 @@ class OdeWorld final : public multibody::World {
   static int collide(const Pair& pair, FoundContact* found);
   static int collide_with_terrain(const Pair& pair, FoundContact* found);
   void set_step(double dt);
-  void find_cells();
-  void find_inverse_masses();
+  double inverse_mass_of(const FoundContact& found) const;
+  void find_patches();
   void describe_contacts();
   void describe_normal(FoundContact& found, double restitution) const;
   void describe_friction(FoundContact& found) const;
