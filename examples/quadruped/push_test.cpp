@@ -66,5 +66,32 @@ TEST(Push, AStandingRobotStepsAndStandsAgain) {
   EXPECT_LT(walk.seen.most_tilt, 10 * degree);
 }
 
+/// Where the base is 1 s after a push, with so many steps a second.
+Vec3 place_after_push(const std::string& motion, int rate, double angle) {
+  Walk walk(scenario,
+            Walk::alone({"robots.walker.motion.use=motion." + motion, "robots.walker.trot.tunables=[forward=0.4]",
+                         "robots.walker.motion.rate=" + std::to_string(rate)}));
+  walk.run(1.2);
+  walk.push(60 * Vec3(std::cos(angle), std::sin(angle), 0));
+  walk.run(0.1);
+  walk.push({0, 0, 0});
+  walk.run(0.9);
+  return walk.pose().position;
+}
+
+void expect_the_same_way_with_small_steps(const std::string& motion, double most) {
+  for (int direction = 0; direction < 8; ++direction) {
+    SCOPED_TRACE(motion + ", " + std::to_string(45 * direction) + " deg");
+    const double angle = direction * 45 * degree;
+    const Vec3 apart = place_after_push(motion, 1000, angle) - place_after_push(motion, 8000, angle);
+    EXPECT_LT(apart.norm(), most) << "m";
+  }
+}
+
+TEST(Push, At1kHzLeadsToWhereItDoesAt8kHz) { expect_the_same_way_with_small_steps("articulated", 0.01); }
+TEST(Push, SlowAt1kHzLeadsToWhereItDoesAt8kHzInEngines) {
+  for (const char* motion : {"mujoco", "bullet"}) expect_the_same_way_with_small_steps(motion, 0.01);
+}
+
 }  // namespace
 }  // namespace muro::quadruped_test

@@ -63,6 +63,26 @@ TEST(GetUp, OneWithShorterLegsTakesTheSamePosesByItsNumbers) {
   }
 }
 
+/// From belly and back, 12 starts each, on a floor of friction 0.6.
+void expect_getting_up_where_it_slides(const std::string& motion) {
+  SCOPED_TRACE(motion);
+  for (int i = 0; i < 24; ++i) {
+    char place[80];
+    std::snprintf(place, sizeof place, "robots.walker.at={pitch: %.2f, yaw: %.1f}",
+                  (i < 12 ? 1 : -1) * (1.4 + 0.03 * (i % 12)), 0.5 * i);
+    SCOPED_TRACE(place);
+    Walker walker({"robots.walker.motion.use=motion." + motion, place, "world.objects.ground.friction=0.6"});
+    for (int k = 0; k < 30 && walker.phase() != 2; ++k) walker.run(0.4);
+    EXPECT_EQ(walker.phase(), 2) << "it walks";
+    EXPECT_GT(walker.pose().position.z(), 0.245);
+  }
+}
+
+TEST(GetUp, From24StartsWhereItSlides) { expect_getting_up_where_it_slides("articulated"); }
+TEST(GetUp, SlowFrom24StartsWhereItSlidesInEngines) {
+  for (const char* motion : {"mujoco", "bullet", "ode"}) expect_getting_up_where_it_slides(motion);
+}
+
 TEST(GetUp, SlowInOtherEngines) {
   for (const char* motion : {"bullet", "ode"})
     for (const double direction : {1, -1}) expect_getting_up(motion, direction);

@@ -69,7 +69,7 @@ endfunction()
 
 # muro_add_test(NAME x SOURCES ... [LIBRARIES ...] [TIMEOUT s] [FIXTURE f] [SLOW] [SEPARATE]): a GoogleTest program, each
 # test known to ctest. FIXTURE: the tests that set it up run before. Tests whose suite, instantiation or own name begins
-# with the word Slow have the label `slow`; so have all tests of a program that is SLOW, which is built for
+# with the word Slow have the label `slow` and four times the TIMEOUT (120 s by default); so have all tests of a program that is SLOW, which is built for
 # `./dev test --slow` alone, and all where MURO_ALL_TESTS_SLOW is set.
 # SEPARATE: its sources have different helpers under one name, so they are not compiled in batches.
 function(muro_add_test)
@@ -80,6 +80,7 @@ function(muro_add_test)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
+  math(EXPR slow_timeout "4 * ${ARG_TIMEOUT}")
   add_executable(${ARG_NAME} ${ARG_SOURCES})
   target_link_libraries(${ARG_NAME} PRIVATE GTest::gtest_main ${ARG_LIBRARIES})
   muro_compile_as_test(${ARG_NAME})
@@ -98,7 +99,7 @@ function(muro_add_test)
   file(CONFIGURE OUTPUT ${ARG_NAME}_labels.cmake CONTENT [[
 foreach(test IN LISTS tests)
   if(test MATCHES "^@ARG_NAME@[.]@slow@")
-    set_tests_properties(${test} PROPERTIES LABELS slow)
+    set_tests_properties(${test} PROPERTIES LABELS slow TIMEOUT @slow_timeout@)
   endif()
 endforeach()
 ]] @ONLY)

@@ -26,6 +26,14 @@ MURO_INLINE S likely_load(const ContactSlot<S>& slot, S found) {
   return select(tells, max(meet, S(0)), found);
 }
 
+/// Where the search for what contacts do stands.
+enum class Search {
+  pieces,  ///< each takes the piece that it has come to
+  drags,   ///< what is not found is a damper of what friction may be, which never turns back
+  yields,  ///< what is not found by that is a lesser damper, if only it stays within its cone
+  ends,    ///< what is not found by that does without friction
+};
+
 /// What a contact was tried with is not what comes of it.
 template <class S>
 struct Misfit {
@@ -41,8 +49,8 @@ struct Misfit {
 
 /// `weight`: N, of the robot.
 template <class S>
-MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>& o, const ContactLaw<S>& law,
-                             S weight) {
+MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>& o, const ContactLaw<S>& law, S weight,
+                             Search search) {
   const ContactPoint<S>& p = slot.point;
   const S zero(0), load = max(o.load, zero);
   const MaskOf<S> is_on = p.is_on > zero;
@@ -62,7 +70,8 @@ MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>
   const S limit = S(1 + of_cone) * most;
   const S allowed = select(slot.step.held > law.held, S(of_impact) * most,
                            max(S(precision) * most, S(of_weight) * p.friction * weight));
-  const S outside = max(dot(lack, lack) - allowed * allowed, dot(m.across, m.across) - limit * limit);
+  const S over_cone = dot(m.across, m.across) - limit * limit;
+  const S outside = search < Search::yields ? max(dot(lack, lack) - allowed * allowed, over_cone) : over_cone;
   m.is_off_cone = is_on & !m.is_drawn & (outside > zero);
   m.turns_back = m.is_off_cone & (dot(slot.step.slide, hold) < zero);
   m.pushes_now = (!is_on) & (slot.rests > zero);
@@ -73,14 +82,6 @@ MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>
   m.any = m.is_drawn | m.pushes_now | m.is_off_cone;
   return m;
 }
-
-/// Where the search for what contacts do stands.
-enum class Search {
-  pieces,  ///< each takes the piece that it has come to
-  drags,   ///< what is not found is a damper of what friction may be, which never turns back
-  yields,  ///< what is not found by that is a lesser damper
-  ends,    ///< what is not found by that does without friction
-};
 
 /// Prepares the next trial of a contact.
 template <class S>
@@ -95,7 +96,7 @@ MURO_INLINE void revise(ContactSlot<S>& slot, const ContactOutcome<S>& o, const 
   p.sticks = select(by_friction | m.is_off_cone, select(m.turns_back, S(1), zero), p.sticks);
   p.slip = select(m.is_off_cone | by_friction, o.slip, p.slip);
   if (search != Search::pieces) {
-    constexpr double less = 0.7;
+    constexpr double less = 0.9;
     S drag = min(m.most / sqrt(max(dot(o.slip, o.slip), S(1e-18))), m.held);
     if (search == Search::yields) drag = S(less) * select(p.drags > zero, min(drag, p.drag), drag);
     if (search == Search::ends) drag = zero;

@@ -152,7 +152,7 @@ MURO_INLINE MaskOf<S> spins(const BodyStep<S>& body, double dt) {
 
 /// The pieces of the laws of joints and contacts are found by trial: mostly the first is right. Contacts are tried as
 /// pieces of their law, then as dampers, then as lesser ones, and at last without friction where nothing else fits.
-constexpr int most_pieces = 5, most_drags = 7, most_yields = 11, most_trials = 18;
+constexpr int most_pieces = 5, most_drags = 9, most_yields = 14, most_trials = 18;
 MURO_INLINE Search search_of(int trial) {
   return trial < most_pieces   ? Search::pieces
          : trial < most_drags  ? Search::drags

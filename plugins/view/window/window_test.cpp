@@ -249,24 +249,36 @@ TEST_F(TheWindow, ShowsThePropertiesOfWhatIsClickedOn) {
   EXPECT_LT(corner.sum(), 330) << "a panel where the scene was";
 }
 
-TEST_F(SlowWindow, ChangesAPropertyThatTheUserEdits) {
+/// The x of a robot whose pose a user edits, with pauses of so much between what hands do.
+double edited_x(std::chrono::milliseconds pause) {
   Show s;
   s.use_window({{"paused", true}, {"follow", std::string("robot")}});
   s.world().value(s.robot->base(), keys::command_twist) = {};
   bool edited = false;
   const auto act = [&] {
     // the fifth row, behind constants of the model, is the pose: opens it, and writes another x
-    click(731, 182);
-    std::this_thread::sleep_for(500ms);
-    click(805, 202);
-    drive("search --name muro windowfocus sleep 0.3");
-    for (const char* key : {"2", "period", "5"}) drive(std::string("key ") + key + " sleep 0.2");
-    drive("keydown Return sleep 1 keyup Return sleep 0.3");
+    TheWindow::click(731, 182);
+    std::this_thread::sleep_for(pause);
+    TheWindow::click(805, 202);
+    std::this_thread::sleep_for(pause / 2);
+    TheWindow::drive("search --name muro windowfocus");
+    for (const char* key : {"2", "period", "5"}) {
+      std::this_thread::sleep_for(pause / 2);
+      TheWindow::drive(std::string("key ") + key);
+    }
+    std::this_thread::sleep_for(pause / 2);
+    TheWindow::drive("keydown Return sleep 1 keyup Return sleep 0.3");
     edited = true;
-    click(play_x, controls_y);
+    TheWindow::click(play_x, controls_y);
   };
-  EXPECT_GE(acts_until_over(s, 0.05, [&] { edited ? click(play_x, controls_y) : act(); }), 1);
-  EXPECT_EQ(s.pose(*s.robot).position.x(), 2.5);
+  EXPECT_GE(acts_until_over(s, 0.05, [&] { edited ? TheWindow::click(play_x, controls_y) : act(); }), 1);
+  return s.pose(*s.robot).position.x();
+}
+
+TEST_F(SlowWindow, ChangesAPropertyThatTheUserEdits) {
+  double x = edited_x(500ms);
+  for (int tries = 0; tries < 3 && x != 2.5; ++tries) x = edited_x(2s);  // a busy machine misses hands that hurry
+  EXPECT_EQ(x, 2.5);
 }
 
 TEST_F(SlowWindow, TakesAsManySamplesAsTheDriverHas) {
