@@ -63,10 +63,10 @@ TEST(GetUp, OneWithShorterLegsTakesTheSamePosesByItsNumbers) {
   }
 }
 
-/// From belly and back, 12 starts each, on a floor of friction 0.6.
-void expect_getting_up_where_it_slides(const std::string& motion) {
+/// From belly and back, 12 starts each, or every n-th of these, on a floor of friction 0.6.
+void expect_getting_up_where_it_slides(const std::string& motion, int each) {
   SCOPED_TRACE(motion);
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < 24; i += each) {
     char place[80];
     std::snprintf(place, sizeof place, "robots.walker.at={pitch: %.2f, yaw: %.1f}",
                   (i < 12 ? 1 : -1) * (1.4 + 0.03 * (i % 12)), 0.5 * i);
@@ -78,9 +78,9 @@ void expect_getting_up_where_it_slides(const std::string& motion) {
   }
 }
 
-TEST(GetUp, From24StartsWhereItSlides) { expect_getting_up_where_it_slides("articulated"); }
-TEST(GetUp, SlowFrom24StartsWhereItSlidesInEngines) {
-  for (const char* motion : {"mujoco", "bullet", "ode"}) expect_getting_up_where_it_slides(motion);
+TEST(GetUp, From24StartsWhereItSlides) { expect_getting_up_where_it_slides("articulated", 1); }
+TEST(GetUp, SlowWhereItSlidesInEngines) {
+  for (const char* motion : {"mujoco", "bullet", "ode"}) expect_getting_up_where_it_slides(motion, 6);
 }
 
 TEST(GetUp, SlowInOtherEngines) {

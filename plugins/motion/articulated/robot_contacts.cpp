@@ -90,7 +90,7 @@ void RobotContacts::look_up(const TouchedBodies& bodies) {
     keep_what_lasts(bodies);
     revision_ = list_.revision(), length_ = (*list_).size();
   }
-  find_cells(bodies);
+  find_cells();
   if (touches_robots_) look_at_others(bodies);
 }
 
@@ -119,7 +119,8 @@ void RobotContacts::find(const TouchedBodies& bodies) {
     contact.surface = &c.surface.friction;
     contact.body = link->body;
     contact.resists_turning = c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0;
-    places_.push_back({i, link->loaded_link});
+    places_.push_back({i, link->loaded_link,
+                       contact_geometry::is_of_disc(bodies[c.self].shapes[c.self_shape], other.shapes[c.other_shape])});
   }
   sort_by_body();
 }
@@ -160,7 +161,7 @@ void RobotContacts::keep_what_lasts(const TouchedBodies& bodies) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].kept = (*kept_)[i].point.data();
 }
 
-void RobotContacts::find_cells(const TouchedBodies& bodies) {
+void RobotContacts::find_cells() {
   const auto list = *list_;
   const auto contact = [&](std::size_t i) -> const Contact& { return list[places_[i].in_list]; };
   const auto belongs = [&](std::size_t begin, std::size_t i) {
@@ -169,13 +170,10 @@ void RobotContacts::find_cells(const TouchedBodies& bodies) {
            c.other_shape == first.other_shape && c.normal.dot(first.normal) > contact_geometry::same_direction;
   };
   contact_geometry::each_patch(contacts_.size(), belongs, [&](std::size_t begin, std::size_t end) {
-    const Contact& first = contact(begin);
     std::fill_n(contacts_[begin].shift, 3, 0.0);
     if (end == begin + 1) return;
-    const bool is_of_disc = contact_geometry::is_of_disc(bodies[first.self].shapes[first.self_shape],
-                                                         bodies[first.other].shapes[first.other_shape]);
     contact_geometry::find_cells(
-        end - begin, is_of_disc, [&](std::size_t i) { return contact(begin + i).point.data(); },
+        end - begin, places_[begin].is_of_disc, [&](std::size_t i) { return contact(begin + i).point.data(); },
         [&](std::size_t i, const Vec3& cell) { std::copy_n(cell.data(), 3, contacts_[begin + i].shift); });
   });
 }

@@ -63,7 +63,7 @@ class RobotContacts {
   void find(const TouchedBodies& bodies);
   void sort_by_body();
   void keep_what_lasts(const TouchedBodies& bodies);
-  void find_cells(const TouchedBodies& bodies);
+  void find_cells();
   void look_at_others(const TouchedBodies& bodies);
 
   struct LinkPlace {
@@ -76,6 +76,7 @@ class RobotContacts {
   struct Place {
     std::uint32_t in_list = 0;
     std::uint32_t link = 0;  ///< loaded link
+    bool is_of_disc = false;
   };
 
   ListIn<Contact> list_;
