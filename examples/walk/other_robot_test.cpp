@@ -35,7 +35,7 @@ TEST(OtherRobots, OneLikeSigmabanWithOtherZerosWalks) {
   for (const char* motion : {"motion.articulated", "motion.mujoco"})
     expect_walk(sigmaban(), motion,
                 "forward=0.15, period=0.4, rise=0.03, step_forward=0.12, "
-                "ankle_pitch_rate=0.03, ankle_roll_rate=0.03",
+                "ankle_pitch_rate=0.03, ankle_roll_rate=0.03, capture=0.4",
                 0.15);
 }
 
