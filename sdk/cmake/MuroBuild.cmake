@@ -69,8 +69,8 @@ endfunction()
 
 # muro_add_test(NAME x SOURCES ... [LIBRARIES ...] [TIMEOUT s] [FIXTURE f] [SLOW] [SEPARATE]): a GoogleTest program, each
 # test known to ctest. FIXTURE: the tests that set it up run before. Tests whose suite, instantiation or own name begins
-# with the word Slow have the label `slow` and four times the TIMEOUT (120 s by default); so have all tests of a program that is SLOW, which is built for
-# `./dev test --slow` alone, and all where MURO_ALL_TESTS_SLOW is set.
+# with the word Slow have the label `slow` and four times the TIMEOUT (120 s by default); so have all tests of a program
+# that is SLOW, which is built for `./dev test --slow` alone, and all where MURO_ALL_TESTS_SLOW is set.
 # SEPARATE: its sources have different helpers under one name, so they are not compiled in batches.
 function(muro_add_test)
   cmake_parse_arguments(ARG "SLOW;SEPARATE" "NAME;TIMEOUT;FIXTURE" "SOURCES;LIBRARIES" ${ARGN})
