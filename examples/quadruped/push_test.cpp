@@ -7,6 +7,12 @@
 namespace muro::quadruped_test {
 namespace {
 
+void push_for_a_tenth(Walk& walk, const Vec3& force) {
+  walk.push(force);
+  walk.run(0.1);
+  walk.push({0, 0, 0});
+}
+
 /// Pushes the base of a robot of 12 kg that trots with 0.4 m/s, at this time, for 0.1 s along this direction.
 void pushes(const std::string& motion, double angle, double when, double force, double least_height = 0.3,
             double most_tilt = 10 * degree, double settles = 1) {
@@ -17,9 +23,7 @@ void pushes(const std::string& motion, double angle, double when, double force, 
   const Vec3 before = walk.pose().position, speed = walk.velocity();
   walk.forget();
   const Vec3 along{std::cos(angle), std::sin(angle), 0};
-  walk.push(force * along);
-  walk.run(0.1);
-  walk.push({0, 0, 0});
+  push_for_a_tenth(walk, force * along);
   EXPECT_GT((walk.velocity() - speed).dot(along), 0.2 * 0.1 * force / 12) << "it has felt the push";
   walk.run(settles);
   const Vec3 recovered = walk.pose().position;
@@ -56,9 +60,7 @@ TEST(Push, AStandingRobotStepsAndStandsAgain) {
   Walk walk(scenario, Walk::alone({"robots.walker.trot.tunables=[forward=0]"}));
   walk.run(1.5);
   EXPECT_NEAR(walk.feet_down(0.2)[4], 1, 1e-9) << "all feet stand";
-  walk.push({0, 90, 0});
-  walk.run(0.1);
-  walk.push({0, 0, 0});
+  push_for_a_tenth(walk, {0, 90, 0});
   EXPECT_GT(walk.feet_down(0.3)[2], 0.5) << "it steps";
   walk.run(2.4);
   EXPECT_NEAR(walk.feet_down(0.2)[4], 1, 1e-9);
@@ -72,9 +74,7 @@ Vec3 place_after_push(const std::string& motion, int rate, double angle) {
             Walk::alone({"robots.walker.motion.use=motion." + motion, "robots.walker.trot.tunables=[forward=0.4]",
                          "robots.walker.motion.rate=" + std::to_string(rate)}));
   walk.run(1.2);
-  walk.push(60 * Vec3(std::cos(angle), std::sin(angle), 0));
-  walk.run(0.1);
-  walk.push({0, 0, 0});
+  push_for_a_tenth(walk, 60 * Vec3(std::cos(angle), std::sin(angle), 0));
   walk.run(0.9);
   return walk.pose().position;
 }

@@ -10,6 +10,13 @@
 namespace muro::walk_test {
 namespace {
 
+/// Within so many seconds.
+void expect_to_walk(Walker& walker, double seconds) {
+  for (int k = 0; k < std::lround(seconds / 0.4) && walker.phase() != 2; ++k) walker.run(0.4);
+  EXPECT_EQ(walker.phase(), 2) << "it walks";
+  EXPECT_GT(walker.pose().position.z(), 0.245);
+}
+
 /// Pushed over forwards or backwards by 3 N s, it lies; then it stands and walks again.
 void expect_getting_up(const std::string& motion, double direction) {
   SCOPED_TRACE(motion);
@@ -22,9 +29,7 @@ void expect_getting_up(const std::string& motion, double direction) {
   EXPECT_GE(walker.phase(), 3) << "it has fallen";
   EXPECT_LT(walker.pose().position.z(), 0.12);
   EXPECT_EQ((walker.pose().orientation * Vec3::UnitX()).z() < 0, direction > 0) << "on its belly or its back";
-  for (int k = 0; k < 20 && walker.phase() != 2; ++k) walker.run(0.4);
-  EXPECT_EQ(walker.phase(), 2) << "it walks";
-  EXPECT_GT(walker.pose().position.z(), 0.245);
+  expect_to_walk(walker, 8);
   const Vec3 before = walker.pose().position;
   const double yaw = walker.yaw();
   walker.run(2);
@@ -63,18 +68,16 @@ TEST(GetUp, OneWithShorterLegsTakesTheSamePosesByItsNumbers) {
   }
 }
 
-/// From belly and back, 12 starts each, or every n-th of these, on a floor of friction 0.6.
-void expect_getting_up_where_it_slides(const std::string& motion, int each) {
+/// From belly and back, 12 starts each, or every `stride`-th of these, on a floor of friction 0.6.
+void expect_getting_up_where_it_slides(const std::string& motion, int stride) {
   SCOPED_TRACE(motion);
-  for (int i = 0; i < 24; i += each) {
+  for (int i = 0; i < 24; i += stride) {
     char place[80];
     std::snprintf(place, sizeof place, "robots.walker.at={pitch: %.2f, yaw: %.1f}",
                   (i < 12 ? 1 : -1) * (1.4 + 0.03 * (i % 12)), 0.5 * i);
     SCOPED_TRACE(place);
     Walker walker({"robots.walker.motion.use=motion." + motion, place, "world.objects.ground.friction=0.6"});
-    for (int k = 0; k < 30 && walker.phase() != 2; ++k) walker.run(0.4);
-    EXPECT_EQ(walker.phase(), 2) << "it walks";
-    EXPECT_GT(walker.pose().position.z(), 0.245);
+    expect_to_walk(walker, 12);
   }
 }
 

@@ -69,8 +69,8 @@ endfunction()
 
 # muro_add_test(NAME x SOURCES ... [LIBRARIES ...] [TIMEOUT s] [FIXTURE f] [SLOW] [SEPARATE]): a GoogleTest program, each
 # test known to ctest. FIXTURE: the tests that set it up run before. Tests whose suite, instantiation or own name begins
-# with the word Slow have the label `slow` and four times the TIMEOUT (120 s by default); so have all tests of a program
-# that is SLOW, which is built for `./dev test --slow` alone, and all where MURO_ALL_TESTS_SLOW is set.
+# with the word Slow have the label `slow` and a TIMEOUT of 480 s or more (120 s by default); so have all tests of a
+# program that is SLOW, which is built for `./dev test --slow` alone, and all where MURO_ALL_TESTS_SLOW is set.
 # SEPARATE: its sources have different helpers under one name, so they are not compiled in batches.
 function(muro_add_test)
   cmake_parse_arguments(ARG "SLOW;SEPARATE" "NAME;TIMEOUT;FIXTURE" "SOURCES;LIBRARIES" ${ARGN})
@@ -80,7 +80,10 @@ function(muro_add_test)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
-  math(EXPR slow_timeout "4 * ${ARG_TIMEOUT}")
+  set(slow_timeout ${ARG_TIMEOUT})
+  if(slow_timeout LESS 480)
+    set(slow_timeout 480)
+  endif()
   add_executable(${ARG_NAME} ${ARG_SOURCES})
   target_link_libraries(${ARG_NAME} PRIVATE GTest::gtest_main ${ARG_LIBRARIES})
   muro_compile_as_test(${ARG_NAME})

@@ -74,7 +74,8 @@ MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>
   const S outside = search < Search::yields ? max(dot(lack, lack) - allowed * allowed, over_cone) : over_cone;
   m.is_off_cone = is_on & !m.is_drawn & (outside > zero);
   m.turns_back = m.is_off_cone & (dot(slot.step.slide, hold) < zero);
-  m.pushes_now = (!is_on) & (slot.rests > zero);
+  m.pushes_now = S(1) < S(0);
+  if (search < Search::yields) m.pushes_now = (!is_on) & (slot.rests > zero);
   if (lane::any(m.pushes_now)) {
     const S speed = dot(o.velocity, p.normal);
     m.pushes_now = m.pushes_now & pushes(p, law, speed, soft_push(p, law, speed));

@@ -80,8 +80,7 @@ class Contacts {
       ContactSlot<S>& slot = work_.contacts[i];
       const ContactOutcome<S> outcome = outcome_of(slot);
       keep(slot, outcome);
-      Misfit<S> m = misfit(slot, outcome, law_, weight_, search);
-      if (search >= Search::yields) m.any = m.is_drawn | m.is_off_cone, m.pushes_now = S(1) < S(0);
+      const Misfit<S> m = misfit(slot, outcome, law_, weight_, search);
       if (!any(m.any)) continue;
       changed = changed | m.any;
       revise(slot, outcome, m, search);
