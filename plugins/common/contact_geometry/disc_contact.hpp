@@ -12,6 +12,7 @@ namespace muro::contact_geometry {
 struct ShapeExtent {
   double reach = 0;  ///< m: radius of a ball about it, of a cylinder that of its rim; infinite: not looked at
   bool is_cylinder = false;
+  Vec3 rim = Vec3::Zero();  ///< m, in the frame of the link: axis of a cylinder, as long as its radius
 };
 inline ShapeExtent extent_of(const Shape& shape) {
   switch (shape.kind) {
@@ -20,7 +21,7 @@ inline ShapeExtent extent_of(const Shape& shape) {
     case ShapeKind::sphere:
       return {shape.size.x()};
     case ShapeKind::cylinder:
-      return {shape.size.x(), true};
+      return {shape.size.x(), true, shape.origin.orientation * Vec3(0, 0, shape.size.x())};
     default:
       return {std::numeric_limits<double>::infinity()};
   }

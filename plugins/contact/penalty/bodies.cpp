@@ -119,6 +119,7 @@ void Bodies::connect_links(Connector& c, const RobotView& view) {
   }
   r.body_count = std::uint32_t(links.size());
   r.is_single_body = links.size() == 1;
+  r.is_one_link = view.links.size() == 1;
   if (r.is_single_body && c.is_used(view.base(), keys::impact_time, usage::input)) {
     r.impact_step = c.read(view.base(), keys::impact_step);
     r.impact_time = c.write(view.base(), keys::impact_time);

@@ -52,10 +52,11 @@ struct Robot {
   std::uint32_t first_body = 0, body_count = 1;  ///< in Bodies::dynamic_bodies; the first is that of the base
   double mass = 0;                               ///< kg, of all its bodies
   bool is_single_body = true;
-  bool is_shadow = false;   ///< it exerts no force on what it touches
-  In<std::uint64_t> world;  ///< see keys::contact_world
-  In<double> lag;           ///< see keys::twist_lag
-  In<double> impact_step;   ///< see keys::impact_step; none: its motion does not correct paths
+  bool is_one_link = false;  ///< so it rolls, or slides, or rests
+  bool is_shadow = false;    ///< it exerts no force on what it touches
+  In<std::uint64_t> world;   ///< see keys::contact_world
+  In<double> lag;            ///< see keys::twist_lag
+  In<double> impact_step;    ///< see keys::impact_step; none: its motion does not correct paths
   Out<std::int64_t> impact_time;
   Out<double> carried_mass;  ///< none: its motion resolves no contacts
   Out<ImpactCorrection> impact;
@@ -172,5 +173,11 @@ struct StepContext {
   double impact_speed = 0;      ///< m/s: contacts that begin faster are impacts
   double correcting_speed = 0;  ///< m/s: overlap that no motion has made is taken back at it
 };
+
+/// Whether what a robot touches is solved at once even where it touches scenery alone: where steps are too long for
+/// springs by themselves to be as stiff as they are to be, and the robot is one link.
+inline bool is_solved_alone(const StepContext& context, const Robot& robot) {
+  return robot.is_one_link && context.stiffness.omega < context.omega;
+}
 
 }  // namespace muro::penalty

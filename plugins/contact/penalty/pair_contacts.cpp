@@ -282,7 +282,6 @@ void PairContacts::find_springs(std::uint32_t self) {
     const Contact& contact = contacts[c.place];
     const FrictionAnchor* const before = previous(old, i, c.pair, contact.point);
     c.lasts = before != nullptr;
-    if (before) c.before = before->point;
     Vec3::Map(point.displacement) = before ? before->displacement : Vec3::Zero();
     point.overlap = 0;
     point.zeta = c.zeta;
@@ -296,7 +295,7 @@ void PairContacts::find_springs(std::uint32_t self) {
     if (!patch.has_load) set_load(self, patch);
     point.patch = &patch.effective_mass.along;
     point.overlap = unmoved_overlap(context_, contact, before, point.approach);
-    if (patch.other != no_robot) find_lever_shifts(self, patch, contact.point, c);
+    find_lever_shifts(self, patch, contact.point, before, c);
   }
 }
 
@@ -324,7 +323,7 @@ void PairContacts::apply_forces(std::uint32_t self) {
       robot.anchors.push_back(anchor_of_impact(c.pair));
       continue;
     }
-    robot.anchors.push_back({c.pair, contact.point, Vec3::Map(point.displacement), point.overlap});
+    robot.anchors.push_back({c.pair, contact.point, Vec3::Map(point.displacement), point.overlap, c.way});
     if (me.group != no_group) robot.solved.push_back(c.solved);
     const Vec3 force = Vec3::Map(point.force);
     ContactPatch& patch = me.patches[c.patch];
@@ -334,6 +333,7 @@ void PairContacts::apply_forces(std::uint32_t self) {
     } else {
       Wrench& wrench = *bodies_.dynamic_bodies[patch.body].wrench;
       wrench.add_force(force, contact.point - bodies_.dynamic_bodies[patch.body].pose->position);
+      wrench.torque += c.lever_shift.cross(force);
       wrench.torque += moment;
     }
     if (told) told->wrench = {force, moment};
@@ -386,22 +386,6 @@ void PairContacts::set_load(std::uint32_t self, ContactPatch& p) const {
 Vec3 PairContacts::centre_velocity(std::int32_t robot, std::uint32_t body) const {
   const DynamicBody& u = bodies_.dynamic_bodies[body];
   return u.twist->at(vector_of(mobility(robot, body).centre) - u.pose->position);
-}
-
-/// How far the levers of a contact of two robots in which its force acts are from those of the begin of the step, m:
-/// where poses and twists are of one instant, they are those of the middle of the step, and those of its start where
-/// twists lag by half a step. So the pair keeps its angular momentum.
-void PairContacts::find_lever_shifts(std::uint32_t self, const ContactPatch& patch, const Vec3& at, Computed& c) const {
-  const Vec3 &v = patch.velocity, &u = patch.other_velocity;
-  Vec3 point_velocity = 0.5 * (v + u);  // of the point, which belongs to no body
-  if (c.lasts && context_.elapsed > 0) {
-    const Vec3 seen = (at - c.before) / context_.elapsed;
-    if ((seen - point_velocity).norm() <= (v - u).norm()) point_velocity = seen;  // else it is another point
-  }
-  const double half = 0.5 * context_.stiffness.h;
-  const double lag = *bodies_.robots[self].lag, other_lag = *bodies_.robots[std::size_t(patch.other)].lag;
-  c.lever_shift = half * (point_velocity - (1 - 2 * lag) * v);
-  c.other_lever_shift = half * (point_velocity - (1 - 2 * other_lag) * u);
 }
 
 /// The force of a contact on both robots.

@@ -108,9 +108,9 @@ class PairContacts {
     bool lasts = false;                     ///< it was there in the step before
     SolvedContact solved{};                 ///< of a group: as kept; when it is solved, as it is to be
     double yield = 0;                       ///< s/kg: of a group, by which its friction gives way where it spins
-    /// m, of contacts of two robots: see find_lever_shifts
+    /// m, see find_lever_shifts
     Vec3 lever_shift = Vec3::Zero(), other_lever_shift = Vec3::Zero();
-    Vec3 before = Vec3::Zero();  ///< m, world: then there, if it lasts
+    Vec3 way = Vec3::Zero();  ///< m, world: of its point in the last step, where it moves over a single body
   };
   /// What is known of the contacts of a robot as long as their list stands for the same.
   struct KnownContacts {
@@ -202,7 +202,12 @@ class PairContacts {
   void find_springs(std::uint32_t self);
   Vec3 resist_turning(std::uint32_t self, ContactPatch& patch, const Contact& contact, const TurningSpring& spring,
                       double normal_force);
-  void find_lever_shifts(std::uint32_t self, const ContactPatch& patch, const Vec3& at, Computed& c) const;
+  void find_lever_shifts(std::uint32_t self, const ContactPatch& patch, const Vec3& at, const FrictionAnchor* before,
+                         Computed& c) const;
+  void find_shared_lever_shifts(std::uint32_t self, const ContactPatch& patch, const Vec3& at,
+                                const FrictionAnchor* before, Computed& c) const;
+  void find_own_lever_shift(std::uint32_t self, const ContactPatch& patch, const Vec3& at, const FrictionAnchor* before,
+                            Computed& c) const;
   void apply_to_pair(const Computed& c, ContactPatch& patch, const Vec3& force, const Vec3& moment,
                      const Vec3& point) const;
   Vec3 centre_velocity(std::int32_t robot, std::uint32_t body) const;

@@ -47,6 +47,7 @@ void PairContacts::find_groups() {
   bool any = false;
   for (std::uint32_t i = 0; i < count; ++i) {
     records_[i].group = no_group;
+    if (is_solved_alone(context_, bodies_.robots[robots_[i]])) carrying_[root_of(i)] = 1, any = true;
     for (const ContactPatch& p : records_[i].patches) {
       if (p.other == no_robot) continue;
       const std::uint32_t a = root_of(i), b = root_of(record_of_[std::size_t(p.other)]);
@@ -213,6 +214,7 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
       s.lever += c.lever_shift;
       s.other_lever = contact.point - vector_of(mobility(c.other_robot, c.other_body).centre) + c.other_lever_shift;
     } else {
+      s.lever += c.lever_shift;
       s.touched = bodies_.velocity(contact.other, contact.point);
     }
     const Vec3 turn = Vec3::Map(point.turn), of_spin = point.spin * turn;

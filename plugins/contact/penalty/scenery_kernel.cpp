@@ -3,20 +3,13 @@
 
 #include "old_anchors.hpp"
 #include "plugins/common/contact_geometry/pressure_cells.hpp"
+#include "rolling_point.hpp"
 
 namespace muro::penalty {
 namespace {
 
 using namespace lane;
 using namespace law;
-
-/// Points that have moved by more than the radius of gyration are new ones: its square is at least 3 / (m trace(I^-1)).
-constexpr double square_of_reach = 1.0 / 3;
-/// By so much of itself the way of a point changes from step to step, as long as it is one of a smooth rim.
-constexpr double smooth = 0.5;
-/// So much of this change is added to its way ahead. 0.75 is of second order; more is a little too far ahead, so that
-/// rims that roll fast lose energy instead of gaining it.
-constexpr double bend_ahead = 1.6;
 
 /// The contacts of as many robots as S has values. Where one has fewer than another, its last contact stands in and
 /// counts for nothing. Each pass over the contacts stores its results for the next, so that the iterations of a pass
@@ -100,7 +93,7 @@ class RobotContacts {
     any_rolls_ = true;
     rolls_ = of_bits(rolling);
     drift_ = (twist.linear + cross(twist.angular, body_.centre - base_)) * S(0.5 * batch_.stiffness.h);
-    reach2_ = body_.mass / (S(square_of_reach) * body_.inertia.trace());
+    reach2_ = square_of_reach(body_);
   }
   /// How a contact moves.
   struct Moved {
@@ -391,13 +384,10 @@ class RobotContacts {
       if constexpr (cells == Cells::any) p.arm = p.at - base_;
       if (cells == Cells::any && any_rolls_) {
         // a point that moves over the body, as on a rim, moves on; others appear
-        const S square = dot(way, way);
-        const auto moves_on = (square < reach2_) & have_anchors & rolls_;
-        const V3<S> bend = anchors > 0 ? way - before.way_of_nearest(p.at, anchors) : way;
-        const auto goes_round = dot(bend, bend) < S(smooth * smooth) * square;  // else it jumps
-        const V3<S> ahead = select(goes_round, way + S(bend_ahead) * bend, way);
-        p.arm = select(moves_on, p.arm + (ahead * half_step - drift_), p.arm);
-        p.way = select(moves_on, way, {zero, zero, zero});
+        const V3<S> none{zero, zero, zero}, last = anchors > 0 ? before.way_of_nearest(p.at, anchors) : none;
+        const auto moves_on = (dot(way, way) < reach2_) & have_anchors & rolls_;
+        p.arm = select(moves_on, p.arm + (way_ahead(way, last) * half_step - drift_), p.arm);
+        p.way = select(moves_on, way, none);
       }
       p.displacement = displacement_of(p.normal, old, p.slip);
       if (!any_looked_at_) continue;

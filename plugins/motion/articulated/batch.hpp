@@ -14,8 +14,10 @@ struct KernelContact {
   double* kept = nullptr;           ///< from its point on, as KeptContact
   const double* other = nullptr;    ///< velocity of what it touches at the point, and its spin; null: it does not move
   double shift[3] = {};             ///< m, world: from the point to where its friction acts, see pressure_cells.hpp
+  double rim[3] = {};               ///< m, in the frame of the body: see contact_geometry::ShapeExtent
   int body = 0;
   bool resists_turning = false;
+  bool has_rim = false;
 };
 /// How many joints of a robot may follow others.
 inline constexpr int most_mimics = 32;

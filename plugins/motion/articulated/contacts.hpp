@@ -150,7 +150,7 @@ class Contacts {
 
   /// The next contacts of all robots that are on the body with the lowest number make up a slot.
   void load_contacts(const RobotState* robots, int count) {
-    static constexpr KernelContact none{no_contact, no_surface, nullptr, nullptr, {}, 0, false};
+    static constexpr KernelContact none{no_contact, no_surface, nullptr, nullptr, {}, {}, 0, false, false};
     int next[count_of<S>] = {};
     work_.contact_count = 0;
     for (;;) {
@@ -179,10 +179,10 @@ class Contacts {
   }
 
   void load_slot(const KernelContact* const (&of_robot)[count_of<S>], ContactSlot<S>& slot) {
-    Places<S> place, surface, kept, velocity, shift;
+    Places<S> place, surface, kept, velocity, shift, rim;
     slot.resists_turning = 0;
     slot.has_cells = false;
-    bool moves = false;
+    bool moves = false, has_rims = false;
     for (int i = 0; i < count_of<S>; ++i) {
       const KernelContact& c = *of_robot[i];
       place.at[i] = c.place, surface.at[i] = c.surface;
@@ -190,7 +190,8 @@ class Contacts {
       velocity.at[i] = c.other ? c.other : at_rest;
       if (c.resists_turning) slot.resists_turning |= 1u << i;
       moves = moves || c.other;
-      shift.at[i] = c.shift;
+      shift.at[i] = c.shift, rim.at[i] = c.rim;
+      has_rims = has_rims || c.has_rim;
       slot.has_cells = slot.has_cells || c.shift[0] != 0 || c.shift[1] != 0 || c.shift[2] != 0;
     }
     const BodyStep<S>& body = work_.bodies[slot.body];
@@ -202,7 +203,7 @@ class Contacts {
     const V3<S> arm = transposed_times(body.axes, point - body.origin);
     ContactPoint<S>& p = slot.point;
     p.normal = transposed_times(body.axes, V3<S>{at[3], at[4], at[5]});
-    const Travel travel = travel_of(slot, point, arm, before, body);
+    const Travel travel = travel_of(slot, point, arm, before, body, has_rims ? &rim : nullptr);
     p.arm = arm + travel.half;
     p.depth = at[6];
     p.velocity = p.spin = {zero, zero, zero};
@@ -266,10 +267,11 @@ class Contacts {
     V3<S> half, all;  ///< m: in half of the step, and in the step
   };
   /// It goes on as in the last two steps, on a parabola, or where these differ much, as in the shorter one, since
-  /// points of edges and corners jump. Where they are not known, it turns with the body about the normal, as on a wheel
-  /// that rolls along a curve. `arm`: m, to `point`, in the frame of the body.
+  /// points of edges and corners jump. Where they are not known, it is the lowest point of a rim, or turns with the
+  /// body about the normal, as on a wheel that rolls along a curve. `arm`: m, to `point`, in the frame of the body;
+  /// `rims`: null where there are none.
   MURO_INLINE Travel travel_of(ContactSlot<S>& slot, const V3<S>& point, const V3<S>& arm, const S (&before)[10],
-                               const BodyStep<S>& body) {
+                               const BodyStep<S>& body, const Places<S>* rims) {
     const S zero(0);
     const V3<S> none{zero, zero, zero}, last{before[3], before[4], before[5]};
     const MaskOf<S> is_known = (before[9] < zero) | (before[9] > zero);
@@ -278,14 +280,32 @@ class Contacts {
     const V3<S> change = slot.way - last, way = select(square < of_last, slot.way, last);
     const MaskOf<S> goes_on = is_known & (min(square, of_last) > zero);
     const V3<S>& normal = slot.point.normal;
-    const V3<S> turned = S(batch_.dt) * (dot(body.w, normal) * cross(normal, arm));
+    V3<S> turned = S(batch_.dt) * (dot(body.w, normal) * cross(normal, arm));
+    if (rims && any(!goes_on)) turned = along_rim(lane::load_vector(*rims), normal, arm, body.w, turned);
     if (!any(goes_on)) return {S(0.5) * turned, turned};
     const MaskOf<S> bends = dot(change, change) < S(0.25) * min(square, of_last);
-    const V3<S> half = select(bends, S(0.5) * slot.way + S(0.375) * change, S(0.5) * way);
+    constexpr double bend_ahead =
+        0.375;  // 0.375 is of second order; rims that roll fast are to lose energy, not to gain
+    const V3<S> half = select(bends, S(0.5) * slot.way + S(bend_ahead) * change, S(0.5) * way);
     const V3<S> all = select(bends, slot.way + change, way);
     const V3<S> of_origin = S(batch_.dt) * body.v;
     return {select(goes_on, transposed_times(body.axes, half) - S(0.5) * of_origin, S(0.5) * turned),
             select(goes_on, transposed_times(body.axes, all) - of_origin, turned)};
+  }
+
+  /// m, in the step: the way of the lowest point of a rim about the origin of its body, where it leans; else `other`.
+  /// `rim`: m, its axis, as long as its radius.
+  [[gnu::noinline]] V3<S> along_rim(const V3<S>& rim, const V3<S>& normal, const V3<S>& arm, const V3<S>& w,
+                                    const V3<S>& other) const {
+    constexpr double least_lean = 1e-2;  // rad, of its face against the ground
+    const S square = dot(rim, rim), radius = sqrt(max(square, S(1e-12)));
+    const V3<S> axis = rim * (S(1) / radius), turning = cross(w, axis);
+    const S rises = dot(normal, axis);
+    const V3<S> up = normal - rises * axis;  // in the plane of the rim
+    const S lean = sqrt(max(dot(up, up), S(least_lean * least_lean)));
+    const V3<S> down = up * (S(-1) / lean), change = S(-1) * (dot(normal, turning) * axis + rises * turning);
+    const V3<S> rate = cross(w, arm - radius * down) - (radius / lean) * (change - dot(down, change) * down);
+    return select((square > S(0)) & (lean > S(least_lean)), S(batch_.dt) * rate, other);
   }
 
   /// A robot that is one body: what wrenches do to it is known before contacts are.

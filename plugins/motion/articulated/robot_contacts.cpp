@@ -54,7 +54,7 @@ RobotContacts::RobotContacts(Connector& c, const RobotView& view, const multibod
   kept_ = c.variable_list(view.base(), kept_contacts);
   for (std::uint32_t i = 0; i < model.loaded_links.size(); ++i) {
     const multibody::LoadedLink& link = model.loaded_links[i];
-    link_places_.push_back({link.object, i, int(link.placement.body)});
+    link_places_.push_back({link.object, i, int(link.placement.body), link.placement.pose.orientation});
   }
   std::sort(link_places_.begin(), link_places_.end(),
             [](const LinkPlace& a, const LinkPlace& b) { return index_of(a.object) < index_of(b.object); });
@@ -118,6 +118,9 @@ void RobotContacts::find(const TouchedBodies& bodies) {
     contact.place = c.point.data();
     contact.surface = &c.surface.friction;
     contact.body = link->body;
+    const Vec3 rim = link->orientation * bodies[c.self].shapes[c.self_shape].rim;
+    std::copy_n(rim.data(), 3, contact.rim);
+    contact.has_rim = !rim.isZero(0);
     contact.resists_turning = c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0;
     places_.push_back({i, link->loaded_link,
                        contact_geometry::is_of_disc(bodies[c.self].shapes[c.self_shape], other.shapes[c.other_shape])});

@@ -70,6 +70,7 @@ class RobotContacts {
     ObjectId object = no_object;
     std::uint32_t loaded_link = 0;  ///< in RobotModel
     int body = 0;
+    Quat orientation = Quat::Identity();  ///< in the body's frame
   };
   const LinkPlace* place_of(ObjectId object) const;
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Where contacts act in the middle of a step, on bodies that move on until then.
+#include "pair_contacts.hpp"
+#include "rolling_point.hpp"
+#include "vectors.hpp"
+
+namespace muro::penalty {
+
+/// How far the levers of a contact in which its force acts are from those of the begin of the step, m. `before`: the
+/// anchor of the step before; null: there is none.
+void PairContacts::find_lever_shifts(std::uint32_t self, const ContactPatch& patch, const Vec3& at,
+                                     const FrictionAnchor* before, Computed& c) const {
+  const bool lasts = before && context_.elapsed > 0;
+  if (patch.other != no_robot)
+    find_shared_lever_shifts(self, patch, at, lasts ? before : nullptr, c);
+  else
+    find_own_lever_shift(self, patch, at, lasts ? before : nullptr, c);
+}
+
+/// Of two robots: where poses and twists are of one instant, levers are those of the middle of the step, and those of
+/// its start where twists lag by half a step. So the pair keeps its angular momentum.
+void PairContacts::find_shared_lever_shifts(std::uint32_t self, const ContactPatch& patch, const Vec3& at,
+                                            const FrictionAnchor* before, Computed& c) const {
+  const Vec3 &v = patch.velocity, &u = patch.other_velocity;
+  Vec3 point_velocity = 0.5 * (v + u);  // of the point, which belongs to no body
+  if (before) {
+    const Vec3 seen = (at - before->point) / context_.elapsed;
+    if ((seen - point_velocity).norm() <= (v - u).norm()) point_velocity = seen;  // else it is another point
+  }
+  const double half = 0.5 * context_.stiffness.h;
+  const double lag = *bodies_.robots[self].lag, other_lag = *bodies_.robots[std::size_t(patch.other)].lag;
+  c.lever_shift = half * (point_velocity - (1 - 2 * lag) * v);
+  c.other_lever_shift = half * (point_velocity - (1 - 2 * other_lag) * u);
+}
+
+/// Of one body that rolls over what no force moves.
+void PairContacts::find_own_lever_shift(std::uint32_t self, const ContactPatch& patch, const Vec3& at,
+                                        const FrictionAnchor* before, Computed& c) const {
+  c.lever_shift.setZero();
+  c.way.setZero();
+  if (!before || !bodies_.robots[self].is_single_body || *bodies_.robots[self].lag != 0) return;
+  const Vec3 way = at - before->point;
+  if (!(way.squaredNorm() < law::square_of_reach(mobility(std::int32_t(self), patch.body)))) return;
+  c.way = way;
+  const double half = 0.5 * context_.stiffness.h;
+  c.lever_shift = half / context_.elapsed * vector_of(law::way_ahead(plain(way), plain(before->way))) -
+                  half * centre_velocity(std::int32_t(self), patch.body);
+}
+
+}  // namespace muro::penalty
