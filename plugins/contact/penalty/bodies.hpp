@@ -174,10 +174,11 @@ struct StepContext {
   double correcting_speed = 0;  ///< m/s: overlap that no motion has made is taken back at it
 };
 
-/// Whether what a robot touches is solved at once even where it touches scenery alone: where steps are too long for
-/// springs by themselves to be as stiff as they are to be, and the robot is one link.
+/// Whether what a robot touches is solved at once even where it touches scenery alone: the robot is one link, and steps
+/// are so long that springs by themselves would be much softer than they are to be.
 inline bool is_solved_alone(const StepContext& context, const Robot& robot) {
-  return robot.is_one_link && context.stiffness.omega < context.omega;
+  constexpr double soft = 0.75;  // a body of any mass would rest 0.2 mm deep
+  return robot.is_one_link && context.stiffness.omega < soft * context.omega;
 }
 
 }  // namespace muro::penalty

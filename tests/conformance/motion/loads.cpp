@@ -70,6 +70,10 @@ Outcome light_on_heavy(const std::string& motion) {
   const Vec3 low(0.4, 0.4, 0.2), high(0.1, 0.1, 0.1);
   return deepest(motion, {{{10, low}, {1, high}}, {{100, low}, {1, high}}, {{100, low}, {0.1, high}}});
 }
+Outcome alone(const std::string& motion) {
+  const Vec3 brick(0.2, 0.1, 0.06);
+  return deepest(motion, {{{0.1, brick}}, {{1, brick}}, {{100, brick}}});
+}
 Outcome ten_boxes(const std::string& motion) {
   return deepest(motion, {std::vector<Stack::Layer>(10, {1, {0.2, 0.2, 0.2}})});
 }
@@ -109,6 +113,7 @@ std::vector<Case> load_cases() {
   constexpr double most = 2.05e-4;  // m
   return {
       {"a load sinks no deeper into a board of a thousandth", "m", needs, most, heavy_on_light},
+      {"a box sinks no deeper into the ground", "m", needs, most, alone},
       {"a light box sinks no deeper into a heavy one", "m", needs, most, light_on_heavy},
       {"none of ten boxes in a stack sinks into another", "m", needs, most, ten_boxes},
       {"a rover stands on a plank on two bricks", "m", needs, most, rover_on_a_plank},

@@ -53,14 +53,14 @@ double held_by_each(const Inertia& inertia, std::span<const Contact> contacts) {
 /// body where steps are so long that they are solved together, else for what weighs on their middle.
 double held_by_all(const Inertia& inertia, const Pose& pose, std::span<const Contact> contacts, double rate) {
   if (contacts.empty()) return 0;
-  const double omega = 2 * M_PI * 50;
+  const double full = 2 * M_PI * 50, omega = std::min(0.6 * rate, full);
   Vec3 middle = Vec3::Zero();
   double squares = 0;
   for (const Contact& c : contacts) {
     middle += c.point / double(contacts.size());
     squares += c.depth * c.depth / double(contacts.size());
   }
-  if (0.6 * rate < omega) return 0.5 * omega * omega * inertia.mass * squares;
+  if (0.6 * rate < 0.75 * full) return 0.5 * full * full * inertia.mass * squares;
   const Mat3 axes = pose.orientation.toRotationMatrix();
   const Vec3 lever = (middle - pose * inertia.com).cross(contacts[0].normal);
   const double inverse_mass =
