@@ -107,6 +107,7 @@ class PairContacts {
     std::uint32_t patch = 0;                ///< in Record::patches, or one of the above
     bool lasts = false;                     ///< it was there in the step before
     SolvedContact solved{};                 ///< of a group: as kept; when it is solved, as it is to be
+    bool is_exact = false;                  ///< of a group: all that acts on its bodies is known
     double yield = 0;                       ///< s/kg: of a group, by which its friction gives way where it spins
     /// m, see find_lever_shifts
     Vec3 lever_shift = Vec3::Zero(), other_lever_shift = Vec3::Zero();
@@ -170,6 +171,7 @@ class PairContacts {
   void add_supports(std::uint32_t robot, double mass, ContactSolver& solver) const;
   bool has_joints(std::int64_t robot) const;
   double apparent_mass_across(std::uint32_t self, const Computed& c) const;
+  double pushing_depth(const Computed& c, double depth) const;
   void add_contacts(std::uint32_t robot, double mass, ContactSolver& solver);
   void take_forces(std::uint32_t robot, std::span<const SolverContact>& found);
   void tell_depth(std::uint32_t robot, const Contact& contact, const PairPoint& point, const Computed& c);

@@ -14,6 +14,10 @@ namespace {
 constexpr double similar_masses = 3;
 /// A normal that rises more steeply belongs to a contact that carries: 17 degrees, its sine.
 constexpr double rising = 0.3;
+/// m/s^2
+constexpr double standard_gravity = 9.80665;
+/// s: what a contact has borne for so long it is stiff enough for, if it is more than its bodies weigh.
+constexpr double load_mean_over = 0.1;
 
 /// Whether all that acts on the robot is known here, beside external wrenches: it is one body, and all its contacts are
 /// in its list.
@@ -150,7 +154,7 @@ void PairContacts::recall(std::uint32_t self, std::size_t place, Computed& c, do
   // half a period of its spring, and half of that again
   if (!c.lasts && approach > context_.impact_speed && c.zeta < max_damping_ratio)
     now.rebounds = 1.5 * M_PI / context_.stiffness.omega;
-  const bool is_exact =
+  const bool is_exact = c.is_exact =
       is_known(robot) && (c.other_robot == no_robot || is_known(bodies_.robots[std::size_t(c.other_robot)]));
   if (is_exact || !before || !(now.load > 0)) {
     now.more = 0;
@@ -190,12 +194,21 @@ double PairContacts::apparent_mass_across(std::uint32_t self, const Computed& c)
   return record(self).patches[c.patch].effective_mass.across / std::max(record(self).shared, other);
 }
 
+/// m: the depth whose spring acts. What bodies fall into each other within long steps is parted slowly, else it would
+/// throw them; what is deep in, faster. Where joints press, nothing is known of how fast that is.
+double PairContacts::pushing_depth(const Computed& c, double depth) const {
+  constexpr double least = 0.04, depth_at_full_speed = 0.1;  // m
+  if (!c.is_exact) return depth;
+  const double omega = context_.omega, part = std::clamp(depth / depth_at_full_speed, least, 1.0);
+  const double of_two_weights = 2 * standard_gravity / (omega * omega);
+  return std::min(depth, std::max(part * 2 * context_.correcting_speed / omega, of_two_weights));
+}
+
 /// Joints may hold a link, and then friction does not move it: what it holds would creep if the link were taken to give
 /// way. So links go on across the normal as they do, and the spring there is that of what links seem to weigh, which is
 /// stable if nothing holds them.
 void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& solver) {
-  const double omega = context_.omega, stiffness = mass * omega * omega;
-  const double held = 2 * mass * omega + context_.stiffness.h * stiffness;
+  const double omega = context_.omega;
   const Record& me = record(self);
   KnownContacts& known = known_[self];
   const Contact* const contacts = (*bodies_.robots[self].contacts).data();
@@ -225,13 +238,15 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     }
     Vec3::Map(point.displacement) += context_.elapsed * (Vec3::Map(point.velocity) + of_spin);
     const Vec3 displacement = Vec3::Map(point.displacement);
-    s.along = part * held;
-    s.push =
-        std::min(part * stiffness * (contact.depth - point.overlap + point.ahead), s.along * context_.correcting_speed);
+    const double carried = std::max(part * mass, c.solved.mean_load / standard_gravity);
+    const double stiffness = carried * omega * omega, held = 2 * carried * omega + context_.stiffness.h * stiffness;
+    s.along = held;
+    s.push = stiffness * pushing_depth(c, contact.depth - point.overlap + point.ahead);
+    s.push = std::min(s.push, s.along * context_.correcting_speed);
     const bool holds_own = has_joints(self), holds_other = has_joints(c.other_robot);
     if (holds_own || holds_other) solver.hold(holds_own, holds_other);
-    const double mass_across = holds_own || holds_other ? apparent_mass_across(self, c) : part * mass;
-    s.across = mass_across / mass * held;
+    const double mass_across = holds_own || holds_other ? apparent_mass_across(self, c) : carried;
+    s.across = mass_across / carried * held;
     s.spring = mass_across * omega * omega * (displacement - contact.normal * contact.normal.dot(displacement));
     s.friction = contact.surface.friction;
     s.limit = s.friction * c.solved.load;
@@ -297,6 +312,7 @@ void PairContacts::take_forces(std::uint32_t self, std::span<const SolverContact
     tell_depth(self, (*bodies_.robots[self].contacts)[c.place], point, c);
     c.solved.load = s.load;
     c.solved.expected = s.away;
+    c.solved.mean_load += std::min(1.0, context_.stiffness.h / load_mean_over) * (s.load - c.solved.mean_load);
     found = found.subspan(1);
     Vec3::Map(point.force) = s.force;
     point.moment = s.force.dot(Vec3::Map(point.turn));

@@ -12,6 +12,7 @@ struct SolvedContact {
   std::uint64_t pair = 0;
   Vec3 point = Vec3::Zero();  ///< m, world
   double load = 0;            ///< N: normal force of the last step
+  double mean_load = 0;       ///< N: the same, its mean over some steps
   double rebounds = 0;        ///< s: so long it is a spring by itself, since it bounces
   double expected = 0;        ///< m/s: at which the points were expected to part at the end of the last step
   double more = 0;            ///< m/s: by which they have parted faster than expected, its mean over some steps

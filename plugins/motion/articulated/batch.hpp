@@ -22,7 +22,7 @@ struct KernelContact {
 /// How many joints of a robot may follow others.
 inline constexpr int most_mimics = 32;
 /// How many numbers a contact keeps.
-inline constexpr int kept_numbers = 13;
+inline constexpr int kept_numbers = 14;
 /// The load that is kept of a contact that bore nothing.
 inline constexpr double unloaded = -1;
 

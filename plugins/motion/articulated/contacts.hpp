@@ -64,11 +64,11 @@ class Contacts {
     for (int i = 0; i < work_.contact_count; ++i) {
       ContactSlot<S>& slot = work_.contacts[i];
       Inertia<S>& to = work_.external[slot.body];
-      slot.step = touch(slot.point, law_, slot.velocity, work_.drifts[slot.body], batch_.dt);
+      slot.step = touch(slot.point, law_of(slot), slot.velocity, work_.drifts[slot.body], batch_.dt);
       lanes::add_terms(slot.point, slot.step, to);
       if (slot.has_cells) add_turn(slot.point, slot.step, to);
       if (slot.resists_turning != 0)
-        resist(slot.point, slot.turning, law_, work_.bodies[slot.body].w, batch_.dt, slot.step, to);
+        resist(slot.point, slot.turning, law_of(slot), work_.bodies[slot.body].w, batch_.dt, slot.step, to);
     }
   }
 
@@ -80,7 +80,7 @@ class Contacts {
       ContactSlot<S>& slot = work_.contacts[i];
       const ContactOutcome<S> outcome = outcome_of(slot);
       keep(slot, outcome);
-      const Misfit<S> m = misfit(slot, outcome, law_, weight_, search);
+      const Misfit<S> m = misfit(slot, outcome, law_of(slot), weight_, search);
       if (!any(m.any)) continue;
       changed = changed | m.any;
       revise(slot, outcome, m, search);
@@ -96,6 +96,8 @@ class Contacts {
       set(radius, i, robots[i < count ? i : 0].radius);
     }
     const S omega(batch_.omega);
+    constexpr double mean_over = 0.1;  // s
+    mean_part_ = batch_.dt < mean_over ? batch_.dt / mean_over : 1;
     weight_ = mass * sqrt(dot(gravity_, gravity_));
     const S stiffness = mass * omega * omega, damping = S(2) * mass * omega;
     law_ = {stiffness,
@@ -107,6 +109,21 @@ class Contacts {
             radius,
             S(2 * batch_.correcting_speed / batch_.omega),
             S(2) * weight_ / stiffness};
+  }
+  /// Drives may press harder than the robot weighs: what a point has borne in the mean it goes on to bear.
+  MURO_INLINE void find_what_it_bears(ContactSlot<S>& slot) const {
+    constexpr double standard_gravity = 9.80665;  // m/s^2
+    const S borne = slot.mean_load, own = S(standard_gravity) * law_.mass;
+    slot.bears_more = any(borne > own);
+    if (slot.bears_more) slot.more = max(borne / own, S(1));
+  }
+  MURO_INLINE const ContactLaw<S>& law_of(const ContactSlot<S>& slot) {
+    return slot.bears_more ? law_of_more(slot.more) : law_;
+  }
+  [[gnu::noinline, gnu::cold]] const ContactLaw<S>& law_of_more(S more) {
+    law_of_more_ = law_;
+    law_of_more_.stiffness *= more, law_of_more_.damping *= more, law_of_more_.held *= more;
+    return law_of_more_;
   }
   MURO_INLINE static void set(S& value, int i, double x) {
     if constexpr (count_of<S> == 1)
@@ -196,10 +213,13 @@ class Contacts {
     }
     const BodyStep<S>& body = work_.bodies[slot.body];
     const S zero(0);
-    S at[7], of_surface[2], before[10];
+    S at[7], of_surface[2], before[11];
     load_rows(place, 0, at), load_rows(surface, 0, of_surface), load_rows(kept, 0, before);
     const V3<S> point{at[0], at[1], at[2]};
     const S load = before[9];
+    slot.mean_load = before[10];
+    find_what_it_bears(slot);
+    const ContactLaw<S>& law = law_of(slot);
     const V3<S> arm = transposed_times(body.axes, point - body.origin);
     ContactPoint<S>& p = slot.point;
     p.normal = transposed_times(body.axes, V3<S>{at[3], at[4], at[5]});
@@ -217,7 +237,7 @@ class Contacts {
     p.friction = of_surface[0], p.restitution = of_surface[1];
     if (slot.resists_turning != 0) {
       S of_turning[2], wound[3];
-      load_rows(surface, 2, of_turning), load_rows(kept, 10, wound);
+      load_rows(surface, 2, of_turning), load_rows(kept, 11, wound);
       slot.turning.rolling = of_turning[0], slot.turning.spinning = of_turning[1];
       slot.turning.displacement = transposed_times(body.axes, V3<S>{wound[0], wound[1], wound[2]});
     }
@@ -234,16 +254,16 @@ class Contacts {
     p.slip = velocity_of_point - speed * p.normal;
     p.pushed = knows_pushes_ ? S(batch_.dt) * dot(pushed_a_ + cross(pushed_alpha_, p.arm), p.normal) : zero;
     // what has borne nothing in the last step is tried without
-    const S push = soft_push(p, law_, speed);
-    const MaskOf<S> bore_nothing = load < zero, is_on = pushes(p, law_, speed, push) & !bore_nothing;
+    const S push = soft_push(p, law, speed);
+    const MaskOf<S> bore_nothing = load < zero, is_on = pushes(p, law, speed, push) & !bore_nothing;
     p.is_on = select(is_on, S(1), zero);
     // what bears little on its way out may push on: its speed at the begin of the step does not tell
     slot.rests = select(is_on, zero, S(1));
     p.sticks = p.drags = p.drag = zero;
     slot.tried_load = slot.found_load = S(-1);
     p.load = load;
-    const MaskOf<S> is_new = load <= zero, is_hit = is_impact(p, law_, speed + p.pushed);
-    if (any(is_new | is_hit)) p.load = select(is_new | is_hit, expected_load(p, law_, speed, push, batch_.dt), load);
+    const MaskOf<S> is_new = load <= zero, is_hit = is_impact(p, law, speed + p.pushed);
+    if (any(is_new | is_hit)) p.load = select(is_new | is_hit, expected_load(p, law, speed, push, batch_.dt), load);
     slot.comes_in = select(is_new | is_hit, S(1), zero);
     p.gained = zero;
     if (!any(is_hit)) return;
@@ -270,7 +290,7 @@ class Contacts {
   /// points of edges and corners jump. Where they are not known, it is the lowest point of a rim, or turns with the
   /// body about the normal, as on a wheel that rolls along a curve. `arm`: m, to `point`, in the frame of the body;
   /// `rims`: null where there are none.
-  MURO_INLINE Travel travel_of(ContactSlot<S>& slot, const V3<S>& point, const V3<S>& arm, const S (&before)[10],
+  MURO_INLINE Travel travel_of(ContactSlot<S>& slot, const V3<S>& point, const V3<S>& arm, const S (&before)[11],
                                const BodyStep<S>& body, const Places<S>* rims) {
     const S zero(0);
     const V3<S> none{zero, zero, zero}, last{before[3], before[4], before[5]};
@@ -339,10 +359,12 @@ class Contacts {
     V3<S> slipped = o.slip;
     if (slot.has_cells)  // less what the damper behind the spring does
       slipped += (o.force - o.load * p.normal) * (p.cell_speed / max(p.friction * max(p.load, load), S(1e-12)));
-    const V3<S> displacement = bounded(p.displacement + S(batch_.dt) * slipped, p.friction * load, law_.stiffness);
+    const V3<S> displacement =
+        bounded(p.displacement + S(batch_.dt) * slipped, p.friction * load, law_of(slot).stiffness);
     const V3<S> d = body.axes * select(is_on, displacement, none);
     const V3<S>& way = slot.way;
-    store_numbers(slot.kept, 3, {way.x, way.y, way.z, d.x, d.y, d.z, select(load > S(0), load, S(unloaded))},
+    const S mean = slot.mean_load + S(mean_part_) * (load - slot.mean_load);
+    store_numbers(slot.kept, 3, {way.x, way.y, way.z, d.x, d.y, d.z, select(load > S(0), load, S(unloaded)), mean},
                   slot.which);
     const V3<S> force = body.axes * o.force;
     V3<S> moment = none;
@@ -350,7 +372,7 @@ class Contacts {
     if (slot.resists_turning != 0) {
       moment += body.axes * slot.step.moment(p.normal, body.alpha);
       const V3<S> t = body.axes * select(is_on, turn_after(slot, body, load), none);
-      store_numbers(slot.kept, 10, {t.x, t.y, t.z}, slot.resists_turning);
+      store_numbers(slot.kept, 11, {t.x, t.y, t.z}, slot.resists_turning);
     }
     store_numbers(slot.wrench, 0, {force.x, force.y, force.z, moment.x, moment.y, moment.z}, slot.which);
   }
@@ -362,8 +384,8 @@ class Contacts {
     if (!any(is_far)) return displacement;
     return displacement * select(is_far, limit / (stiffness * sqrt(max(square, S(1e-300)))), S(1));
   }
-  V3<S> turn_after(const ContactSlot<S>& slot, const BodyStep<S>& body, S load) const {
-    const S h(batch_.dt), stiffness = law_.stiffness * law_.radius * law_.radius;
+  V3<S> turn_after(const ContactSlot<S>& slot, const BodyStep<S>& body, S load) {
+    const S h(batch_.dt), stiffness = law_of(slot).stiffness * law_.radius * law_.radius;
     const V3<S>& n = slot.point.normal;
     const V3<S> turn = slot.turning.displacement + h * (body.w + h * body.alpha - slot.point.spin);
     const V3<S> wound = dot(turn, n) * n;
@@ -374,8 +396,9 @@ class Contacts {
   const Batch& batch_;
   Work<S>& work_;
   V3<S> gravity_;
-  ContactLaw<S> law_;
-  S weight_;  ///< N: what contacts may have to bear
+  ContactLaw<S> law_, law_of_more_;
+  S weight_;              ///< N: what contacts may have to bear
+  double mean_part_ = 0;  ///< of mean loads: what the last step makes of them
   Places<S> wrenches_;
   bool has_wrenches_ = false;
   bool knows_pushes_ = false;

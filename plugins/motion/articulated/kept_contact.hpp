@@ -13,6 +13,7 @@ struct KeptContact {
   Vec3 way = Vec3::Zero();           ///< m, world: of the point in the step before
   Vec3 displacement = Vec3::Zero();  ///< m, world: of the friction spring
   double load = 0;                   ///< N: the normal force of the last step; 0: not known, `unloaded`: none
+  double mean_load = 0;              ///< N: the same, mean over some steps
   Vec3 turn = Vec3::Zero();          ///< rad, world: of the spring against rolling and spinning
 };
 static_assert(sizeof(KeptContact) == (1 + kept_numbers) * sizeof(double));

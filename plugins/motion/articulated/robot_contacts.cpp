@@ -21,7 +21,8 @@ static_assert(offsetof(Contact, normal) == offsetof(Contact, point) + 3 * sizeof
               offsetof(KeptContact, way) == offsetof(KeptContact, point) + 3 * sizeof(double) &&
               offsetof(KeptContact, displacement) == offsetof(KeptContact, point) + 6 * sizeof(double) &&
               offsetof(KeptContact, load) == offsetof(KeptContact, point) + 9 * sizeof(double) &&
-              offsetof(KeptContact, turn) == offsetof(KeptContact, point) + 10 * sizeof(double));
+              offsetof(KeptContact, mean_load) == offsetof(KeptContact, point) + 10 * sizeof(double) &&
+              offsetof(KeptContact, turn) == offsetof(KeptContact, point) + 11 * sizeof(double));
 
 void TouchedBodies::connect(Connector& c) {
   all_.resize(c.object_count());

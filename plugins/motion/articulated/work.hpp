@@ -23,6 +23,9 @@ struct ContactSlot {
   TurningPoint<S> turning;
   ContactStep<S> step;
   V3<S> way;                 ///< m, world: of the point since the last step
+  bool bears_more = false;   ///< in some robot, than the robot weighs
+  S more;                    ///< so many times as much, at least 1
+  S mean_load;               ///< N: of the last steps
   S comes_in;                ///< 1: it is new, or an impact
   S tried_load, found_load;  ///< N: of the trial before; -1: there is none
   S rests;                   ///< 1: it is tried without a force, since it had none in the last step

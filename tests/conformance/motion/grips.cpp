@@ -53,6 +53,40 @@ struct Grip : Trial {
   }
 };
 
+/// m: how deep a finger on a slide of 0.3 kg in all goes into a wall that it presses with `effort` (N).
+double pressed(const std::string& motion, double effort, double rate) {
+  Trial t(motion, rate);
+  const Vec3 size(0.04, 0.04, 0.04);
+  const Shape wall = with(Shape::box({0.2, 1, 1}), grip_friction);
+  t.world().add_scenery("wall", {{0.1 + 0.5 * size.x() + 0.1, 0, 1}, Quat::Identity()},
+                        std::span<const Shape>(&wall, 1));
+  const Shape shape = with(Shape::box(size), grip_friction);
+  t.add("press", test::tree_of([&](RobotBuilder& b) {
+          b.base("frame");
+          b.set(keys::inertial, solid_box(0.2, {0.1, 0.1, 0.1}));
+          b.prismatic("slide", Vec3::UnitX(), {.velocity = 1, .effort = effort});
+          b.body("finger");
+          b.set(keys::inertial, solid_box(0.1, size));
+          b.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));
+        }),
+        {{0, 0, 1}, Quat::Identity()});
+  std::map<std::string, ParameterInput> parameters{{"base", std::string("fixed")}};
+  if (motion == "motion.simplified") parameters.emplace("effort_limits", true);
+  t.start(parameters);
+  t.joint("press/slide", keys::joint_velocity_target) = 0.2;
+  t.run_for(2);
+  return std::abs(t.joint("press/slide", keys::joint_position) - 0.1);
+}
+Outcome press(const std::string& motion) {
+  Outcome worst;
+  for (const double rate : {1000.0, 250.0})
+    for (const double effort : {3.0, 60.0}) {
+      const double depth = pressed(motion, effort, rate);
+      if (depth > worst.error) worst = {depth, text(depth) + " m with " + text(effort) + " N at " + text(rate) + " Hz"};
+    }
+  return worst;
+}
+
 /// How far the part moves and turns, of what it may, within 5 s after the fingers have closed.
 Outcome holds_part(const std::string& motion) {
   constexpr double may_move = 1e-4, may_turn = 0.01;
@@ -129,7 +163,8 @@ Outcome stays_in_cones(const std::string& motion) {
 
 std::vector<Case> grip_cases() {
   constexpr Features needs = feature_contact | feature_friction | feature_joints;
-  return {{"two fingers hold what their friction can carry", "of 0.1 mm, 0.01 rad", needs, 1, holds_part},
+  return {{"a finger goes no deeper into a wall that it presses", "m", needs | feature_fixed_base, 2.05e-4, press},
+          {"two fingers hold what their friction can carry", "of 0.1 mm, 0.01 rad", needs, 1, holds_part},
           {"two fingers drop what is too heavy for their friction", "holds wrongly", needs, 0, drops_part},
           {"no contact leaves the cone of its friction", "relative", needs, 0.01, stays_in_cones}};
 }
