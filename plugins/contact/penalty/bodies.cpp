@@ -38,6 +38,18 @@ void Bodies::connect(Connector& c) {
   sort_by_order_key(by_order_key);
 }
 
+/// One link rests 0.2 mm deep where steps are long. A robot that is fixed presses with its drives, not with its weight.
+bool Bodies::is_solved_alone(const StepContext& context, std::uint32_t number) const {
+  constexpr double soft = 0.75, deep = 2e-4;  // m
+  const Robot& robot = robots[number];
+  if (robot.is_one_link) return context.stiffness.omega < soft * context.omega;
+  if (robot.is_single_body) return false;
+  const Twist& base = *base_of(robot).twist;
+  if (!base.linear.isZero(0) || !base.angular.isZero(0)) return false;
+  return !(*robot.solved).empty() || std::any_of((*robot.contacts).begin(), (*robot.contacts).end(),
+                                                 [](const Contact& c) { return c.depth > deep; });
+}
+
 void Bodies::sort_by_order_key(std::vector<std::uint32_t>& numbers) const {
   std::sort(numbers.begin(), numbers.end(), [this](std::uint32_t a, std::uint32_t b) {
     return std::tuple(robots[a].order_key, a) < std::tuple(robots[b].order_key, b);

@@ -74,6 +74,17 @@ struct Material {
   double restitution = 0, damping_ratio = 0;
 };
 
+/// What all contacts of a step share.
+struct StepContext {
+  Stiffness stiffness;
+  double omega = 0;             ///< rad/s: of contacts that are solved together, whatever the step
+  double elapsed = 0;           ///< s since the last run
+  std::int64_t time = 0;        ///< ns
+  Vec3 gravity = Vec3::Zero();  ///< m/s^2
+  double impact_speed = 0;      ///< m/s: contacts that begin faster are impacts
+  double correcting_speed = 0;  ///< m/s: overlap that no motion has made is taken back at it
+};
+
 struct Bodies {
   std::vector<Body> all;                              ///< by object id
   std::vector<contact_geometry::ShapeExtent> shapes;  ///< of all bodies
@@ -115,6 +126,9 @@ struct Bodies {
     const Robot& r = robots[std::size_t(robot)];
     return r.impact_step && *r.lag == 0 ? *r.impact_step : 0;
   }
+  /// Whether what a robot touches is solved at once even where it touches scenery alone: springs by themselves would be
+  /// much softer than they are to be. `robot`: in `robots`.
+  bool is_solved_alone(const StepContext& context, std::uint32_t robot) const;
   void clear_wrenches(std::uint32_t robot) const {
     const Robot& r = robots[robot];
     for (std::uint32_t u = r.first_body; u < r.first_body + r.body_count; ++u) *dynamic_bodies[u].wrench = Wrench{};
@@ -162,23 +176,5 @@ struct Bodies {
   void add_dynamic_body(Connector& c, ObjectId body, const MassProperties& mass);
   std::uint32_t number_of(const MassProperties& mass);
 };
-
-/// What all contacts of a step share.
-struct StepContext {
-  Stiffness stiffness;
-  double omega = 0;             ///< rad/s: of contacts that are solved together, whatever the step
-  double elapsed = 0;           ///< s since the last run
-  std::int64_t time = 0;        ///< ns
-  Vec3 gravity = Vec3::Zero();  ///< m/s^2
-  double impact_speed = 0;      ///< m/s: contacts that begin faster are impacts
-  double correcting_speed = 0;  ///< m/s: overlap that no motion has made is taken back at it
-};
-
-/// Whether what a robot touches is solved at once even where it touches scenery alone: the robot is one link, and steps
-/// are so long that springs by themselves would be much softer than they are to be.
-inline bool is_solved_alone(const StepContext& context, const Robot& robot) {
-  constexpr double soft = 0.75;  // a body of any mass would rest 0.2 mm deep
-  return robot.is_one_link && context.stiffness.omega < soft * context.omega;
-}
 
 }  // namespace muro::penalty

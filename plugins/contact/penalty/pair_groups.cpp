@@ -51,7 +51,7 @@ void PairContacts::find_groups() {
   bool any = false;
   for (std::uint32_t i = 0; i < count; ++i) {
     records_[i].group = no_group;
-    if (is_solved_alone(context_, bodies_.robots[robots_[i]])) carrying_[root_of(i)] = 1, any = true;
+    if (bodies_.is_solved_alone(context_, robots_[i])) carrying_[root_of(i)] = 1, any = true;
     for (const ContactPatch& p : records_[i].patches) {
       if (p.other == no_robot) continue;
       const std::uint32_t a = root_of(i), b = root_of(record_of_[std::size_t(p.other)]);
@@ -119,6 +119,7 @@ void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
   std::sort(me.touched.begin(), me.touched.end());
   const double shared = me.shared = robot.is_single_body ? 1 : bodies_.apparent_masses[self].shared_by(me.touched);
   for (std::uint32_t i = 0; i < robot.body_count; ++i) {
+    if (!robot.carried_mass && std::find(me.touched.begin(), me.touched.end(), i) == me.touched.end()) continue;
     Mobility mobility = me.mobilities[i];
     mobility.mass *= shared;
     mobility.inertia = shared * mobility.inertia;
@@ -238,14 +239,15 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     }
     Vec3::Map(point.displacement) += context_.elapsed * (Vec3::Map(point.velocity) + of_spin);
     const Vec3 displacement = Vec3::Map(point.displacement);
-    const double carried = std::max(part * mass, c.solved.mean_load / standard_gravity);
+    const bool holds_own = has_joints(self), holds_other = has_joints(c.other_robot),
+               is_pressed = holds_own || holds_other;
+    const double carried = std::max(part * mass, is_pressed ? c.solved.mean_load / standard_gravity : 0);
     const double stiffness = carried * omega * omega, held = 2 * carried * omega + context_.stiffness.h * stiffness;
     s.along = held;
     s.push = stiffness * pushing_depth(c, contact.depth - point.overlap + point.ahead);
     s.push = std::min(s.push, s.along * context_.correcting_speed);
-    const bool holds_own = has_joints(self), holds_other = has_joints(c.other_robot);
-    if (holds_own || holds_other) solver.hold(holds_own, holds_other);
-    const double mass_across = holds_own || holds_other ? apparent_mass_across(self, c) : carried;
+    if (is_pressed) solver.hold(holds_own, holds_other);
+    const double mass_across = is_pressed ? apparent_mass_across(self, c) : carried;
     s.across = mass_across / carried * held;
     s.spring = mass_across * omega * omega * (displacement - contact.normal * contact.normal.dot(displacement));
     s.friction = contact.surface.friction;

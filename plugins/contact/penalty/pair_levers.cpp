@@ -38,7 +38,7 @@ void PairContacts::find_own_lever_shift(std::uint32_t self, const ContactPatch& 
                                         const FrictionAnchor* before, Computed& c) const {
   c.lever_shift.setZero();
   c.way.setZero();
-  if (!before || !bodies_.robots[self].is_single_body || *bodies_.robots[self].lag != 0) return;
+  if (!before || !bodies_.robots[self].is_one_link || *bodies_.robots[self].lag != 0) return;
   const Vec3 way = at - before->point;
   if (!(way.squaredNorm() < law::square_of_reach(mobility(std::int32_t(self), patch.body)))) return;
   c.way = way;

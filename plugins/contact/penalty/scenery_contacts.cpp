@@ -147,7 +147,7 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
     if (!knows(robot, contacts)) analyse(robot, contacts);
     known.revision = known.list.revision();
   }
-  if (!known.only_scenery || is_solved_alone(context, bodies_.robots[robot])) {
+  if (!known.only_scenery || bodies_.is_solved_alone(context, robot)) {
     remaining_[robot] = 1;
     return;
   }

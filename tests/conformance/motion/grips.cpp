@@ -74,7 +74,7 @@ double pressed(const std::string& motion, double effort, double rate) {
   if (motion == "motion.simplified") parameters.emplace("effort_limits", true);
   t.start(parameters);
   t.joint("press/slide", keys::joint_velocity_target) = 0.2;
-  t.run_for(2);
+  t.run_for(4);
   return std::abs(t.joint("press/slide", keys::joint_position) - 0.1);
 }
 Outcome press(const std::string& motion) {
