@@ -171,7 +171,7 @@ class PairContacts {
   void add_supports(std::uint32_t robot, double mass, ContactSolver& solver) const;
   bool has_joints(std::int64_t robot) const;
   double apparent_mass_across(std::uint32_t self, const Computed& c) const;
-  double pushing_depth(const Computed& c, double depth) const;
+  double parted_depth(double depth) const;
   void add_contacts(std::uint32_t robot, double mass, ContactSolver& solver);
   void take_forces(std::uint32_t robot, std::span<const SolverContact>& found);
   void tell_depth(std::uint32_t robot, const Contact& contact, const PairPoint& point, const Computed& c);

@@ -195,11 +195,10 @@ double PairContacts::apparent_mass_across(std::uint32_t self, const Computed& c)
   return record(self).patches[c.patch].effective_mass.across / std::max(record(self).shared, other);
 }
 
-/// m: the depth whose spring acts. What bodies fall into each other within long steps is parted slowly, else it would
-/// throw them; what is deep in, faster. Where joints press, nothing is known of how fast that is.
-double PairContacts::pushing_depth(const Computed& c, double depth) const {
+/// m: the depth whose spring acts, where all that acts on bodies is known. What they fall into each other within long
+/// steps is parted slowly, else it would throw them; what is deep in, faster; as motion.articulated does it.
+double PairContacts::parted_depth(double depth) const {
   constexpr double least = 0.04, depth_at_full_speed = 0.1;  // m
-  if (!c.is_exact) return depth;
   const double omega = context_.omega, part = std::clamp(depth / depth_at_full_speed, least, 1.0);
   const double of_two_weights = 2 * standard_gravity / (omega * omega);
   return std::min(depth, std::max(part * 2 * context_.correcting_speed / omega, of_two_weights));
@@ -244,7 +243,8 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     const double carried = std::max(part * mass, is_pressed ? c.solved.mean_load / standard_gravity : 0);
     const double stiffness = carried * omega * omega, held = 2 * carried * omega + context_.stiffness.h * stiffness;
     s.along = held;
-    s.push = stiffness * pushing_depth(c, contact.depth - point.overlap + point.ahead);
+    const double depth = contact.depth - point.overlap + point.ahead;
+    s.push = stiffness * (c.is_exact ? parted_depth(depth) : depth);
     s.push = std::min(s.push, s.along * context_.correcting_speed);
     if (is_pressed) solver.hold(holds_own, holds_other);
     const double mass_across = is_pressed ? apparent_mass_across(self, c) : carried;
@@ -283,7 +283,7 @@ void PairContacts::add_supports(std::uint32_t self, double mass, ContactSolver& 
     s.only_damps = !robot.is_single_body;
     s.along = s.across = s.only_damps ? much * held : held;
     if (s.only_damps) continue;
-    s.push = stiffness * contact.depth;
+    s.push = stiffness * parted_depth(contact.depth);
     s.friction = contact.surface.friction;
     s.limit = s.friction * s.push;
   }
