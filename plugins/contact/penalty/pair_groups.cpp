@@ -18,6 +18,8 @@ constexpr double rising = 0.3;
 constexpr double standard_gravity = 9.80665;
 /// s: what a contact has borne for so long it is stiff enough for, if it is more than its bodies weigh.
 constexpr double load_mean_over = 0.1;
+/// It is so many times the mass of a group at most.
+constexpr double most_pressed = 1000;
 
 /// Whether all that acts on the robot is known here, beside external wrenches: it is one body, and all its contacts are
 /// in its list.
@@ -240,7 +242,8 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     const Vec3 displacement = Vec3::Map(point.displacement);
     const bool holds_own = has_joints(self), holds_other = has_joints(c.other_robot),
                is_pressed = holds_own || holds_other;
-    const double carried = std::max(part * mass, is_pressed ? c.solved.mean_load / standard_gravity : 0);
+    const double pressed = is_pressed ? std::min(c.solved.mean_load / standard_gravity, most_pressed * mass) : 0;
+    const double carried = std::max(part * mass, pressed);
     const double stiffness = carried * omega * omega, held = 2 * carried * omega + context_.stiffness.h * stiffness;
     s.along = held;
     const double depth = contact.depth - point.overlap + point.ahead;

@@ -56,6 +56,8 @@ struct ContactLaw {
   S radius;              ///< m: of the springs against rolling and spinning
   S most_depth;          ///< m: overlap of a tenth of a metre and more pushes no harder; less, less
   S least_cap;           ///< m: at which one contact bears the robot twice
+  S for_weight;          ///< N/m: of `stiffness`, what bears the robot
+  S most_more;           ///< N: what the rest of it bears at most
 };
 
 /// What a contact does in a step, for afterwards.
@@ -174,7 +176,8 @@ MURO_INLINE S soft_push(const ContactPoint<S>& p, const ContactLaw<S>& law, S sp
   // what is deep in is parted faster
   constexpr double least = 0.04, depth_at_full_speed = 0.1;  // m
   const S part = max(min(p.depth * S(1 / depth_at_full_speed), S(1)), S(least));
-  return law.stiffness * min(p.depth, max(part * law.most_depth, law.least_cap)) - law.held * speed;
+  const S own = law.for_weight * min(p.depth, max(part * law.most_depth, law.least_cap));
+  return own + min((law.stiffness - law.for_weight) * p.depth, law.most_more) - law.held * speed;
 }
 
 /// Whether a point pushes: it is in, and not on its way out faster than its spring and damper, or after a rebound.

@@ -9,6 +9,8 @@ inline namespace MURO_ISA {
 
 using lane::any, lane::as_read, lane::count_of, lane::load_rows, lane::Places;
 
+/// m/s^2
+inline constexpr double standard_gravity = 9.80665;
 /// What robots have that do not touch: far from everything, at rest.
 inline constexpr double no_contact[7] = {0, 0, 0, 0, 0, 1, -1}, no_surface[4] = {}, nothing_kept[kept_numbers] = {},
                         at_rest[6] = {};
@@ -108,11 +110,12 @@ class Contacts {
             S(batch_.hard_speed),
             radius,
             S(2 * batch_.correcting_speed / batch_.omega),
-            S(2) * weight_ / stiffness};
+            S(2) * weight_ / stiffness,
+            stiffness,
+            S(0)};
   }
   /// Drives may press harder than the robot weighs: what a point has borne in the mean it goes on to bear.
   MURO_INLINE void find_what_it_bears(ContactSlot<S>& slot) const {
-    constexpr double standard_gravity = 9.80665;  // m/s^2
     const S borne = slot.mean_load, own = S(standard_gravity) * law_.mass;
     slot.bears_more = any(borne > own);
     if (slot.bears_more) slot.more = max(borne / own, S(1));
@@ -123,6 +126,7 @@ class Contacts {
   [[gnu::noinline, gnu::cold]] const ContactLaw<S>& law_of_more(S more) {
     law_of_more_ = law_;
     law_of_more_.stiffness *= more, law_of_more_.damping *= more, law_of_more_.held *= more;
+    law_of_more_.most_more = S(standard_gravity) * law_.mass * (more - S(1));
     return law_of_more_;
   }
   MURO_INLINE static void set(S& value, int i, double x) {
@@ -301,7 +305,8 @@ class Contacts {
     const MaskOf<S> goes_on = is_known & (min(square, of_last) > zero);
     const V3<S>& normal = slot.point.normal;
     V3<S> turned = S(batch_.dt) * (dot(body.w, normal) * cross(normal, arm));
-    if (rims && any(!goes_on)) turned = along_rim(lane::load_vector(*rims), normal, arm, body.w, turned);
+    const MaskOf<S> is_fresh = (!is_known) | ((square > zero) & !goes_on);
+    if (rims && any(is_fresh)) turned = along_rim(lane::load_vector(*rims), normal, arm, body.w, turned);
     if (!any(goes_on)) return {S(0.5) * turned, turned};
     const MaskOf<S> bends = dot(change, change) < S(0.25) * min(square, of_last);
     constexpr double bend_ahead =

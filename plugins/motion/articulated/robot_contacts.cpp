@@ -124,9 +124,11 @@ void RobotContacts::find(const TouchedBodies& bodies) {
     contact.has_rim = !rim.isZero(0);
     contact.resists_turning = c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0;
     places_.push_back({i, link->loaded_link,
-                       contact_geometry::is_of_disc(bodies[c.self].shapes[c.self_shape], other.shapes[c.other_shape])});
+                       contact_geometry::is_of_disc(bodies[c.self].shapes[c.self_shape], other.shapes[c.other_shape]),
+                       false});
   }
   sort_by_body();
+  find_joins();
 }
 
 /// Contacts stand in the order of links, which is that of bodies but for links behind fixed joints.
@@ -165,19 +167,26 @@ void RobotContacts::keep_what_lasts(const TouchedBodies& bodies) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].kept = (*kept_)[i].point.data();
 }
 
+void RobotContacts::find_joins() {
+  for (std::size_t i = 1; i < contacts_.size(); ++i) {
+    const Contact &before = contact(i - 1), &c = contact(i);
+    places_[i].joins = c.self == before.self && c.other == before.other && c.self_shape == before.self_shape &&
+                       c.other_shape == before.other_shape;
+  }
+}
+
 void RobotContacts::find_cells() {
-  const auto list = *list_;
-  const auto contact = [&](std::size_t i) -> const Contact& { return list[places_[i].in_list]; };
+  const Contact* const list = (*list_).data();
   const auto belongs = [&](std::size_t begin, std::size_t i) {
-    const Contact &first = contact(begin), &c = contact(i);
-    return c.self == first.self && c.other == first.other && c.self_shape == first.self_shape &&
-           c.other_shape == first.other_shape && c.normal.dot(first.normal) > contact_geometry::same_direction;
+    return places_[i].joins &&
+           list[places_[i].in_list].normal.dot(list[places_[begin].in_list].normal) > contact_geometry::same_direction;
   };
   contact_geometry::each_patch(contacts_.size(), belongs, [&](std::size_t begin, std::size_t end) {
     std::fill_n(contacts_[begin].shift, 3, 0.0);
     if (end == begin + 1) return;
     contact_geometry::find_cells(
-        end - begin, places_[begin].is_of_disc, [&](std::size_t i) { return contact(begin + i).point.data(); },
+        end - begin, places_[begin].is_of_disc,
+        [&](std::size_t i) { return list[places_[begin + i].in_list].point.data(); },
         [&](std::size_t i, const Vec3& cell) { std::copy_n(cell.data(), 3, contacts_[begin + i].shift); });
   });
 }

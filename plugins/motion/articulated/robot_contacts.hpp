@@ -63,6 +63,7 @@ class RobotContacts {
   void find(const TouchedBodies& bodies);
   void sort_by_body();
   void keep_what_lasts(const TouchedBodies& bodies);
+  void find_joins();
   void find_cells();
   void look_at_others(const TouchedBodies& bodies);
 
@@ -78,6 +79,7 @@ class RobotContacts {
     std::uint32_t in_list = 0;
     std::uint32_t link = 0;  ///< loaded link
     bool is_of_disc = false;
+    bool joins = false;  ///< of the same two shapes as the contact before
   };
 
   ListIn<Contact> list_;

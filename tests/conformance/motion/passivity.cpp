@@ -8,6 +8,7 @@
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/mesh/files_testing.hpp"
 #include "tests/conformance/motion/case.hpp"
+#include "tests/conformance/motion/energies.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/randoms.hpp"
 
@@ -31,49 +32,6 @@ Inertia solid_cylinder(double mass, double rim, double length) {
   return {.mass = mass, .ixx = across, .iyy = across, .izz = mass * rim * rim / 2};
 }
 
-/// J; above z = 0.
-double energy_of(const Inertia& inertia, const Pose& pose, const Twist& twist) {
-  const Mat3 axes = pose.orientation.toRotationMatrix();
-  const Vec3 centre = pose * inertia.com, velocity = twist.at(centre - pose.position);
-  const Vec3 spin = axes * inertia.tensor() * axes.transpose() * twist.angular;
-  return 0.5 * inertia.mass * velocity.squaredNorm() + 0.5 * twist.angular.dot(spin) + inertia.mass * g * centre.z();
-}
-
-/// J: what springs of contacts hold at motion.articulated: each has 50 Hz for all of the body, and no more than twice
-/// its weight.
-double held_by_each(const Inertia& inertia, std::span<const Contact> contacts) {
-  const double omega = 2 * M_PI * 50, stiffness = inertia.mass * omega * omega, cap = 2 * g / (omega * omega);
-  double held = 0;
-  for (const Contact& c : contacts)
-    held += stiffness * (c.depth < cap ? 0.5 * c.depth * c.depth : cap * (c.depth - 0.5 * cap));
-  return held;
-}
-
-/// J: the same of contact.penalty, of a body whose contacts have one normal: together they have 50 Hz, for all of the
-/// body where steps are so long that they are solved together, else for what weighs on their middle.
-double held_by_all(const Inertia& inertia, const Pose& pose, std::span<const Contact> contacts, double rate) {
-  if (contacts.empty()) return 0;
-  const double full = 2 * M_PI * 50, omega = std::min(0.6 * rate, full);
-  Vec3 middle = Vec3::Zero();
-  double squares = 0;
-  for (const Contact& c : contacts) {
-    middle += c.point / double(contacts.size());
-    squares += c.depth * c.depth / double(contacts.size());
-  }
-  if (0.6 * rate < 0.75 * full) return 0.5 * full * full * inertia.mass * squares;
-  const Mat3 axes = pose.orientation.toRotationMatrix();
-  const Vec3 lever = (middle - pose * inertia.com).cross(contacts[0].normal);
-  const double inverse_mass =
-      1 / inertia.mass + lever.dot(axes * inertia.tensor().inverse() * axes.transpose() * lever);
-  return 0.5 * omega * omega / inverse_mass * squares;
-}
-
-/// Means over 50 ms.
-struct Energies {
-  double of_body = 0;          ///< J
-  double held_by_springs = 0;  ///< J
-};
-
 std::vector<Energies> energies(const std::string& motion, const PassiveBody& s, double rate) {
   Trial t(motion, rate);
   t.add_ground(s.friction);
@@ -88,9 +46,7 @@ std::vector<Energies> energies(const std::string& motion, const PassiveBody& s, 
   const RobotView& r = t.add("body", tree, s.at, s.twist);
   t.start({{"meshes", std::string("convex")}});
   const auto held = [&] {
-    const std::span<const Contact> contacts = t.world().values(r.base(), keys::contacts);
-    if (motion == "motion.articulated") return held_by_each(s.inertia, contacts);
-    return motion == "motion.simplified" ? held_by_all(s.inertia, t.pose(r), contacts, rate) : 0;
+    return held_by_springs(motion, s.inertia, t.pose(r), t.world().values(r.base(), keys::contacts), rate);
   };
   std::vector<Energies> means{{energy_of(s.inertia, s.at, s.twist), 0}};
   const int steps = int(0.05 * rate);
@@ -104,17 +60,6 @@ std::vector<Energies> energies(const std::string& motion, const PassiveBody& s, 
     means.push_back(mean);
   }
   return means;
-}
-
-/// Of the energy at the start: what a body has at most more, at any later time, than it and springs had before, whose
-/// part counts up to `most_held` (J). `first`: of `means`.
-double gain_of(std::span<const Energies> means, double most_held = std::numeric_limits<double>::infinity(),
-               std::size_t first = 0) {
-  double gain = 0;
-  for (std::size_t i = first; i < means.size(); ++i)
-    for (std::size_t k = i + 1; k < means.size(); ++k)
-      gain = std::max(gain, means[k].of_body - means[i].of_body - std::min(means[i].held_by_springs, most_held));
-  return gain / means.front().of_body;
 }
 
 /// The same of a body that begins on the ground: when it has settled there, springs of 50 Hz hold what they need to
