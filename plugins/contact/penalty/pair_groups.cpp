@@ -317,7 +317,8 @@ void PairContacts::take_forces(std::uint32_t self, std::span<const SolverContact
     tell_depth(self, (*bodies_.robots[self].contacts)[c.place], point, c);
     c.solved.load = s.load;
     c.solved.expected = s.away;
-    c.solved.mean_load += std::min(1.0, context_.stiffness.h / load_mean_over) * (s.load - c.solved.mean_load);
+    if (c.lasts)
+      c.solved.mean_load += std::min(1.0, context_.stiffness.h / load_mean_over) * (s.load - c.solved.mean_load);
     found = found.subspan(1);
     Vec3::Map(point.force) = s.force;
     point.moment = s.force.dot(Vec3::Map(point.turn));

@@ -7,7 +7,7 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-using lane::any, lane::as_read, lane::count_of, lane::load_rows, lane::Places;
+using lane::abs, lane::any, lane::as_read, lane::count_of, lane::load_rows, lane::Places;
 
 /// m/s^2
 inline constexpr double standard_gravity = 9.80665;
@@ -72,6 +72,32 @@ class Contacts {
       if (slot.resists_turning != 0)
         resist(slot.point, slot.turning, law_of(slot), work_.bodies[slot.body].w, batch_.dt, slot.step, to);
     }
+  }
+
+  /// Whether something is hit that is elastic.
+  bool rebounds() const { return rebounds_; }
+  /// Newton's restitution would give robots energy where friction turns what it throws back, or points hit at once
+  /// share an impulse (Stronge, Impact Mechanics, 2000, section 5.3). Where it has, what is hit rebounds less in the
+  /// next trials, or not `at_last`. Returns whether some does.
+  bool take_back_energy(bool at_last) {
+    if (!rebounds_ || batch_.structure.count == 1) return false;
+    constexpr double less = 0.8, precision = 1e-3;
+    S work(0), size(0);
+    for (int i = 0; i < work_.contact_count; ++i) {
+      const ContactSlot<S>& slot = work_.contacts[i];
+      const ContactOutcome<S> o = outcome_of(slot);
+      const S of_point = dot(o.force, slot.velocity - slot.point.velocity + o.velocity);
+      work += of_point, size += abs(of_point);
+    }
+    const MaskOf<S> gains = work > S(precision) * size;
+    if (!any(gains)) return false;
+    bool rebounds = false;
+    for (int i = 0; i < work_.contact_count; ++i) {
+      S& restitution = work_.contacts[i].point.restitution;
+      rebounds = rebounds || any(gains & (restitution > S(0)));
+      restitution = select(gains, S(at_last ? 0 : less) * restitution, restitution);
+    }
+    return rebounds;
   }
 
   /// Tells and keeps what contacts have done. Returns whether some have not done what was tried, but will do in the
@@ -271,6 +297,7 @@ class Contacts {
     slot.comes_in = select(is_new | is_hit, S(1), zero);
     p.gained = zero;
     if (!any(is_hit)) return;
+    rebounds_ = rebounds_ || any(is_hit & (p.restitution > zero));
     if (batch_.structure.count == 1)
       p.gained = time_since_touch(slot) * max(-dot(work_.drifts[slot.body] - cross(body.w, body.v), p.normal), zero);
     // it is hit where its surface is, before it went in
@@ -368,7 +395,8 @@ class Contacts {
         bounded(p.displacement + S(batch_.dt) * slipped, p.friction * load, law_of(slot).stiffness);
     const V3<S> d = body.axes * select(is_on, displacement, none);
     const V3<S>& way = slot.way;
-    const S mean = slot.mean_load + S(mean_part_) * (load - slot.mean_load);
+    const S counted = select(slot.comes_in > S(0), slot.mean_load, load);  // impacts do not press
+    const S mean = slot.mean_load + S(mean_part_) * (counted - slot.mean_load);
     store_numbers(slot.kept, 3, {way.x, way.y, way.z, d.x, d.y, d.z, select(load > S(0), load, S(unloaded)), mean},
                   slot.which);
     const V3<S> force = body.axes * o.force;
@@ -406,6 +434,7 @@ class Contacts {
   double mean_part_ = 0;  ///< of mean loads: what the last step makes of them
   Places<S> wrenches_;
   bool has_wrenches_ = false;
+  bool rebounds_ = false;
   bool knows_pushes_ = false;
   V3<S> pushed_alpha_, pushed_a_;  ///< by wrenches alone, where pushes are known
   V3<S> force_, torque_;

@@ -64,6 +64,14 @@ class RandomBodies {
       for (int i = 0; i < steps; ++i) {
         trial_.run_for(1 / rate_);
         for (std::size_t n = 0; n < bodies_.size(); ++n) add_to(sums[n], bodies_[n]);
+        if (const char* w = getenv("WHO")) {
+          const Body& b = bodies_[std::size_t(atoi(w))];
+          const Pose& q = trial_.pose(*b.view); const Twist& t = trial_.twist(*b.view);
+          const auto cc = trial_.world().values(b.view->base(), keys::contacts);
+          printf("T %.4f E %.5g z %.5f v %.3f %.3f %.3f w %.3f %.3f %.3f n %zu", k * 0.05 + (i + 1) / rate_, energy_of(b.inertia, q, t), q.position.z(), t.linear.x(), t.linear.y(), t.linear.z(), t.angular.x(), t.angular.y(), t.angular.z(), cc.size());
+          for (const Contact& c : cc) printf(" [%.2fmm %.2f]", 1e3 * c.depth, c.normal.dot(t.at(c.point - q.position)));
+          printf("\n");
+        }
       }
       for (std::size_t n = 0; n < bodies_.size(); ++n)
         bodies_[n].means.push_back({sums[n].of_body / steps, sums[n].held_by_springs / steps});
@@ -142,7 +150,7 @@ class SlowRandomBodies : public ::testing::TestWithParam<GroundAndRate> {};
 TEST_P(SlowRandomBodies, ThatFallGainNoEnergy) {
   const auto& [motion, ground, rate] = GetParam();
   constexpr unsigned scenes = 14;  // of 64 bodies, in 12 combinations: 10 752
-  for (unsigned seed = 1; seed <= scenes; ++seed) {
+  for (unsigned seed = getenv("SEED") ? atoi(getenv("SEED")) : 1; seed <= (getenv("SEED") ? atoi(getenv("SEED")) : scenes); ++seed) {
     const auto [gain, what] = RandomBodies(motion, ground, rate, seed).run();
     EXPECT_LT(gain, 1e-3) << what << ", seed " << seed;
   }
