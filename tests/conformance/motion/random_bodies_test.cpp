@@ -15,12 +15,12 @@ enum class Ground { plane, mesh, heightmap };
 
 double hill(double x, double y) { return 0.15 * std::sin(0.7 * x) * std::cos(0.5 * y); }
 
-constexpr int side = 8;      // bodies along each side of the square
-constexpr double apart = 6;  // m
+constexpr int side = 8;       // bodies along each side of the square
+constexpr double apart = 12;  // m: none meets another
 constexpr double half = 0.5 * side * apart;
 
 mesh::Mesh hills_as_mesh() {
-  constexpr std::uint32_t cells = 40;
+  constexpr std::uint32_t cells = 80;
   mesh::Mesh m;
   for (std::uint32_t row = 0; row <= cells; ++row)
     for (std::uint32_t column = 0; column <= cells; ++column) {
@@ -64,14 +64,6 @@ class RandomBodies {
       for (int i = 0; i < steps; ++i) {
         trial_.run_for(1 / rate_);
         for (std::size_t n = 0; n < bodies_.size(); ++n) add_to(sums[n], bodies_[n]);
-        if (const char* w = getenv("WHO")) {
-          const Body& b = bodies_[std::size_t(atoi(w))];
-          const Pose& q = trial_.pose(*b.view); const Twist& t = trial_.twist(*b.view);
-          const auto cc = trial_.world().values(b.view->base(), keys::contacts);
-          printf("T %.4f E %.5g z %.5f v %.3f %.3f %.3f w %.3f %.3f %.3f n %zu", k * 0.05 + (i + 1) / rate_, energy_of(b.inertia, q, t), q.position.z(), t.linear.x(), t.linear.y(), t.linear.z(), t.angular.x(), t.angular.y(), t.angular.z(), cc.size());
-          for (const Contact& c : cc) printf(" [%.2fmm %.2f]", 1e3 * c.depth, c.normal.dot(t.at(c.point - q.position)));
-          printf("\n");
-        }
       }
       for (std::size_t n = 0; n < bodies_.size(); ++n)
         bodies_[n].means.push_back({sums[n].of_body / steps, sums[n].held_by_springs / steps});
@@ -139,7 +131,7 @@ class RandomBodies {
   const double rate_;
   test::Randoms random_;
   const test::ScratchFolder folder_;
-  const test::Hills hills_{2 * half, 40, hill};
+  const test::Hills hills_{2 * half, 80, hill};
   Trial trial_;
   std::vector<Body> bodies_;
 };
@@ -150,7 +142,7 @@ class SlowRandomBodies : public ::testing::TestWithParam<GroundAndRate> {};
 TEST_P(SlowRandomBodies, ThatFallGainNoEnergy) {
   const auto& [motion, ground, rate] = GetParam();
   constexpr unsigned scenes = 14;  // of 64 bodies, in 12 combinations: 10 752
-  for (unsigned seed = getenv("SEED") ? atoi(getenv("SEED")) : 1; seed <= (getenv("SEED") ? atoi(getenv("SEED")) : scenes); ++seed) {
+  for (unsigned seed = 1; seed <= scenes; ++seed) {
     const auto [gain, what] = RandomBodies(motion, ground, rate, seed).run();
     EXPECT_LT(gain, 1e-3) << what << ", seed " << seed;
   }
