@@ -277,6 +277,34 @@ Outcome carries_a_vehicle(const std::string& motion) {
   return relative((t.pose(r).position - before).x() / 2, 10 * radius);
 }
 
+/// A cylinder in a gutter of radius R swings as a pendulum of the length 3/2 (R - r): the mean of two periods, with the
+/// first term of their growth with the width.
+Outcome swings_in_a_gutter(const std::string& motion) {
+  constexpr double gutter = 1, rim = 0.1, width = 0.2;  // m, m, rad
+  const Hills hills(401, 21, 1.2, 1, [](double x, double) { return gutter - std::sqrt(gutter * gutter - x * x); });
+  Trial t(motion);
+  hills.stand_in(t, 0.8);
+  const double mass = 1, length = 0.2, across = mass * (3 * rim * rim + length * length) / 12;
+  const RobotTree tree = test::single_body(with(Shape::cylinder(rim, length), 0.8),
+                                           {.mass = mass, .ixx = across, .iyy = across, .izz = mass * rim * rim / 2});
+  const double way = gutter - rim;
+  const RobotView& r =
+      t.add("disk", tree, {{way * std::sin(width), 0, gutter - way * std::cos(width)}, from_rpy(M_PI / 2, 0, 0)});
+  t.start();
+  std::vector<double> crossings;
+  double before = t.pose(r).position.x();
+  while (crossings.size() < 5 && t.now() < 12'000'000'000) {
+    t.run_for(0.001);
+    const double x = t.pose(r).position.x();
+    if (before * x < 0) crossings.push_back(1e-9 * double(t.now()) - 0.001 * x / (x - before));
+    before = x;
+  }
+  if (crossings.size() < 5) return {1, text(double(crossings.size())) + " of 5 crossings"};
+  const double seen = (crossings[4] - crossings[0]) / 2,
+               expected = 2 * M_PI * std::sqrt(1.5 * way / g) * (1 + width * width / 16);
+  return relative(seen, expected);
+}
+
 }  // namespace
 
 std::vector<Case> heightmap_cases() {
@@ -291,6 +319,8 @@ std::vector<Case> heightmap_cases() {
       {"a block that slides on a heightmap stops after v^2 / (2 mu g)", "relative", with_friction, 0.01, stops},
       {"a solid sphere rolls down a heightmap of 20 deg with 5/7 g sin", "relative", with_friction, 2e-3, rolls},
       {"a cylinder rolls down a heightmap of 20 deg with 2/3 g sin", "relative", with_friction, 2e-3, cylinder_rolls},
+      {"a cylinder swings in a gutter with the period of 3/2 (R - r)", "relative", with_friction, 0.02,
+       swings_in_a_gutter},
       {"a ball of restitution 0.7 bounces on a heightmap when it should", "s", needs | feature_restitution, 0.01,
        bounces},
       {"a heightmap that is turned and shifted carries boxes where its levels are", "m", needs, 1e-3,

@@ -239,6 +239,60 @@ Outcome rolling_ellipsoid(const std::string& motion) {
                   .twist = {{0.3, 0, 0}, {0, 3, 5}}});
 }
 
+/// A chain of ten links that lies on a table, half of it over the edge: of all energy that its fall can give it, what
+/// it has at most more at any later time than before.
+Outcome chain_over_an_edge(const std::string& motion) {
+  constexpr int count = 10;
+  constexpr double length = 0.1, thick = 0.01, mass = 0.05, height = 1;  // m, m, kg, m
+  const double across = mass * length * length / 12;
+  const Inertia inertia{.mass = mass, .com = {length / 2, 0, 0}, .ixx = 0.02 * across, .iyy = across, .izz = across};
+  Shape shape = with(Shape::capsule(thick, length - 2 * thick), 0.3);
+  shape.origin = {{length / 2, 0, 0}, from_rpy(0, M_PI / 2, 0)};
+  const RobotTree tree = test::tree_of([&](RobotBuilder& b) {
+    for (int i = 0; i < count; ++i) {
+      const std::string number = std::to_string(i);
+      if (i > 0) b.translation({length, 0, 0});
+      if (i > 0) b.revolute("joint" + number, i % 2 != 0 ? Vec3::UnitY() : Vec3::UnitZ(), {});
+      if (i == 0)
+        b.base("link0");
+      else
+        b.body("link" + number);
+      b.set(keys::inertial, inertia);
+      b.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));
+    }
+  });
+  Outcome worst;
+  for (const double rate : step_rates) {
+    Trial t(motion, rate);
+    const Shape table = with(Shape::box({1, 1, height}), 0.3);
+    t.world().add_scenery("table", {{-0.5, 0, 0.5 * height}, Quat::Identity()}, std::span<const Shape>(&table, 1));
+    const RobotView& r = t.add("chain", tree, {{-0.52, 0, height + thick}, Quat::Identity()});
+    t.start({{"joints", std::string("passive")}});
+    const auto energy = [&] {
+      double sum = 0;
+      for (const Link& link : r.links)
+        sum += energy_of(inertia, t.world().value(link.object, keys::pose), t.world().value(link.object, keys::twist));
+      return sum;
+    };
+    t.run_for(1 / rate);
+    double least = energy(), gain = 0;
+    for (int k = 0; k < 20; ++k) {
+      double mean = 0;
+      const int steps = int(0.05 * rate);
+      for (int i = 0; i < steps; ++i) {
+        t.run_for(1 / rate);
+        mean += energy() / steps;
+      }
+      gain = std::max(gain, mean - least);
+      least = std::min(least, mean);
+    }
+    gain /= count * mass * g * height;
+    worst.error = std::max(worst.error, gain);
+    worst.seen += text(gain) + " at " + text(rate) + " Hz ";
+  }
+  return worst;
+}
+
 /// Boxes, cylinders and capsules that fall askew.
 Outcome random_bodies(const std::string& motion) {
   Outcome worst;
@@ -275,6 +329,8 @@ std::vector<Case> passivity_cases() {
       {"a cone that rolls round gains no energy", "of the energy", needs | feature_convex_meshes, most, rolling_cone},
       {"an ellipsoid that rolls gains no energy", "of the energy", needs | feature_convex_meshes, most,
        rolling_ellipsoid},
+      {"a chain that slides over an edge gains no energy", "of the energy", needs | feature_link_dynamics, most,
+       chain_over_an_edge},
       {"random bodies that fall gain no energy", "of the energy", needs, most, random_bodies},
   };
 }
