@@ -2,12 +2,13 @@
 // The contacts and external wrenches of a pack of robots within a step.
 #pragma once
 
+#include "contact_travel.hpp"
 #include "contact_trial.hpp"
 
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-using lane::abs, lane::any, lane::as_read, lane::count_of, lane::load_rows, lane::Places;
+using lane::any, lane::as_read, lane::count_of, lane::load_rows, lane::Places;
 
 /// m/s^2
 inline constexpr double standard_gravity = 9.80665;
@@ -75,30 +76,10 @@ class Contacts {
   }
 
   /// Whether something is hit that is elastic.
-  bool rebounds() const { return rebounds_; }
-  /// Newton's restitution would give robots energy where friction turns what it throws back, or points hit at once
-  /// share an impulse (Stronge, Impact Mechanics, 2000, section 5.3). Where it has, what is hit rebounds less in the
-  /// next trials, or not `at_last`. Returns whether some does.
-  bool take_back_energy(bool at_last) {
-    if (!rebounds_ || batch_.structure.count == 1) return false;
-    constexpr double less = 0.8, precision = 1e-3;
-    S work(0), size(0);
-    for (int i = 0; i < work_.contact_count; ++i) {
-      const ContactSlot<S>& slot = work_.contacts[i];
-      const ContactOutcome<S> o = outcome_of(slot);
-      const S of_point = dot(o.force, slot.velocity - slot.point.velocity + o.velocity);
-      work += of_point, size += abs(of_point);
-    }
-    const MaskOf<S> gains = work > S(precision) * size;
-    if (!any(gains)) return false;
-    bool rebounds = false;
-    for (int i = 0; i < work_.contact_count; ++i) {
-      S& restitution = work_.contacts[i].point.restitution;
-      rebounds = rebounds || any(gains & (restitution > S(0)));
-      restitution = select(gains, S(at_last ? 0 : less) * restitution, restitution);
-    }
-    return rebounds;
-  }
+  bool rebounds() const { return any(rebounds_ > S(0)); }
+  /// Robots of which something is hit that is elastic, but those that another robot pushes, or that touch what moves by
+  /// itself: these may get energy from there.
+  MaskOf<S> keep_energy() const { return (rebounds_ > S(0)) & !((dot(force_, force_) > S(0)) | (moved_ > S(0))); }
 
   /// Tells and keeps what contacts have done. Returns whether some have not done what was tried, but will do in the
   /// next trial.
@@ -253,7 +234,11 @@ class Contacts {
     const V3<S> arm = transposed_times(body.axes, point - body.origin);
     ContactPoint<S>& p = slot.point;
     p.normal = transposed_times(body.axes, V3<S>{at[3], at[4], at[5]});
-    const Travel travel = travel_of(slot, point, arm, before, body, has_rims ? &rim : nullptr);
+    const V3<S> last{before[3], before[4], before[5]};
+    const MaskOf<S> is_known = (load < zero) | (load > zero);
+    slot.way = select(is_known, point - V3<S>{before[0], before[1], before[2]}, {zero, zero, zero});
+    const Travel<S> travel =
+        travel_of(slot.way, last, is_known, p.normal, arm, body, has_rims ? &rim : nullptr, batch_.dt);
     p.arm = arm + travel.half;
     p.depth = at[6];
     p.velocity = p.spin = {zero, zero, zero};
@@ -261,6 +246,7 @@ class Contacts {
       const lane::TwistOf<S> other = lane::load_twist(velocity);
       p.velocity = transposed_times(body.axes, other.linear);
       p.spin = transposed_times(body.axes, other.angular);
+      moved_ += dot(other.linear, other.linear) + dot(other.angular, other.angular);
     }
     const V3<S> d = transposed_times(body.axes, V3<S>{before[6], before[7], before[8]});
     p.displacement = d - dot(d, p.normal) * p.normal;
@@ -297,7 +283,7 @@ class Contacts {
     slot.comes_in = select(is_new | is_hit, S(1), zero);
     p.gained = zero;
     if (!any(is_hit)) return;
-    rebounds_ = rebounds_ || any(is_hit & (p.restitution > zero));
+    rebounds_ += select(is_hit & (p.restitution > zero), S(1), zero);
     if (batch_.structure.count == 1)
       p.gained = time_since_touch(slot) * max(-dot(work_.drifts[slot.body] - cross(body.w, body.v), p.normal), zero);
     // it is hit where its surface is, before it went in
@@ -311,53 +297,6 @@ class Contacts {
     constexpr double least = 1e-3;  // m/s
     const S approach = -dot(slot.velocity - slot.point.velocity, slot.point.normal);
     return select(approach > S(least), min(slot.point.depth / max(approach, S(least)), S(batch_.dt)), S(0));
-  }
-
-  /// How far a point goes beside the origin of its body, in the frame of that.
-  struct Travel {
-    V3<S> half, all;  ///< m: in half of the step, and in the step
-  };
-  /// It goes on as in the last two steps, on a parabola, or where these differ much, as in the shorter one, since
-  /// points of edges and corners jump. Where they are not known, it is the lowest point of a rim, or turns with the
-  /// body about the normal, as on a wheel that rolls along a curve. `arm`: m, to `point`, in the frame of the body;
-  /// `rims`: null where there are none.
-  MURO_INLINE Travel travel_of(ContactSlot<S>& slot, const V3<S>& point, const V3<S>& arm, const S (&before)[11],
-                               const BodyStep<S>& body, const Places<S>* rims) {
-    const S zero(0);
-    const V3<S> none{zero, zero, zero}, last{before[3], before[4], before[5]};
-    const MaskOf<S> is_known = (before[9] < zero) | (before[9] > zero);
-    slot.way = select(is_known, point - V3<S>{before[0], before[1], before[2]}, none);
-    const S square = dot(slot.way, slot.way), of_last = dot(last, last);
-    const V3<S> change = slot.way - last, way = select(square < of_last, slot.way, last);
-    const MaskOf<S> goes_on = is_known & (min(square, of_last) > zero);
-    const V3<S>& normal = slot.point.normal;
-    V3<S> turned = S(batch_.dt) * (dot(body.w, normal) * cross(normal, arm));
-    const MaskOf<S> is_fresh = (!is_known) | ((square > zero) & !goes_on);
-    if (rims && any(is_fresh)) turned = along_rim(lane::load_vector(*rims), normal, arm, body.w, turned);
-    if (!any(goes_on)) return {S(0.5) * turned, turned};
-    const MaskOf<S> bends = dot(change, change) < S(0.25) * min(square, of_last);
-    constexpr double bend_ahead =
-        0.375;  // 0.375 is of second order; rims that roll fast are to lose energy, not to gain
-    const V3<S> half = select(bends, S(0.5) * slot.way + S(bend_ahead) * change, S(0.5) * way);
-    const V3<S> all = select(bends, slot.way + change, way);
-    const V3<S> of_origin = S(batch_.dt) * body.v;
-    return {select(goes_on, transposed_times(body.axes, half) - S(0.5) * of_origin, S(0.5) * turned),
-            select(goes_on, transposed_times(body.axes, all) - of_origin, turned)};
-  }
-
-  /// m, in the step: the way of the lowest point of a rim about the origin of its body, where it leans; else `other`.
-  /// `rim`: m, its axis, as long as its radius.
-  [[gnu::noinline]] V3<S> along_rim(const V3<S>& rim, const V3<S>& normal, const V3<S>& arm, const V3<S>& w,
-                                    const V3<S>& other) const {
-    constexpr double least_lean = 1e-2;  // rad, of its face against the ground
-    const S square = dot(rim, rim), radius = sqrt(max(square, S(1e-12)));
-    const V3<S> axis = rim * (S(1) / radius), turning = cross(w, axis);
-    const S rises = dot(normal, axis);
-    const V3<S> up = normal - rises * axis;  // in the plane of the rim
-    const S lean = sqrt(max(dot(up, up), S(least_lean * least_lean)));
-    const V3<S> down = up * (S(-1) / lean), change = S(-1) * (dot(normal, turning) * axis + rises * turning);
-    const V3<S> rate = cross(w, arm - radius * down) - (radius / lean) * (change - dot(down, change) * down);
-    return select((square > S(0)) & (lean > S(least_lean)), S(batch_.dt) * rate, other);
   }
 
   /// A robot that is one body: what wrenches do to it is known before contacts are.
@@ -434,7 +373,8 @@ class Contacts {
   double mean_part_ = 0;  ///< of mean loads: what the last step makes of them
   Places<S> wrenches_;
   bool has_wrenches_ = false;
-  bool rebounds_ = false;
+  S rebounds_{0};  ///< above 0 where something is hit that is elastic
+  S moved_{0};     ///< above 0 where something that is touched moves
   bool knows_pushes_ = false;
   V3<S> pushed_alpha_, pushed_a_;  ///< by wrenches alone, where pushes are known
   V3<S> force_, torque_;

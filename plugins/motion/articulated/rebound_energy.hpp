@@ -15,13 +15,13 @@ MURO_INLINE S twice_energy(const V3<S>& linear, const V3<S>& angular, S mass, co
   return dot(linear, linear) / mass + dot(angular, inverse_tensor * angular);
 }
 
-/// Of robots that are one body, and that no other robot pushes. `before`: at the begin of the step; `weight`: N;
-/// `pushed`: N, what else acts beside contacts; `dt`: s; `pose`: of the base, at the end; `twist`: there, in and out.
+/// Of robots that are one body. `before`: at the begin of the step; `weight`: N; `dt`: s; `which`: robots
+/// that rebound, and to which nothing gives energy; `pose`: of the base, at the end; `twist`: there, in and out.
 /// Changes the body.
 template <class S>
 [[gnu::noinline]] void take_gained_energy(const Structure& s, const Masses<S>& masses, BodyStep<S>& body,
-                                          const Momentum<S>& before, const V3<S>& weight, const V3<S>& pushed,
-                                          double dt, const lane::PoseOf<S>& pose, lane::TwistOf<S>& twist) {
+                                          const Momentum<S>& before, const V3<S>& weight, double dt, MaskOf<S> which,
+                                          const lane::PoseOf<S>& pose, lane::TwistOf<S>& twist) {
   body.axes = pose.orientation.matrix();
   body.origin = pose.position;
   body.v = transposed_times(body.axes, twist.linear), body.w = transposed_times(body.axes, twist.angular);
@@ -31,8 +31,7 @@ template <class S>
   const V3<S> impulse = end.linear - linear, turning = end.angular - angular;
   const S had = twice_energy(before.linear, angular, end.mass, inverse(before.tensor)) +
                 S(2) * dot(weight, end.centre - before.centre);
-  const MaskOf<S> gains =
-      (twice_energy(end.linear, end.angular, end.mass, inverse_tensor) > had) & !(dot(pushed, pushed) > S(0));
+  const MaskOf<S> gains = which & (twice_energy(end.linear, end.angular, end.mass, inverse_tensor) > had);
   if (!lane::any(gains)) return;
   // a part^2 + 2 b part + c = 0
   const S a = twice_energy(impulse, turning, end.mass, inverse_tensor);

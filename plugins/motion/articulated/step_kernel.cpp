@@ -154,8 +154,6 @@ MURO_INLINE MaskOf<S> spins(const BodyStep<S>& body, double dt) {
 /// The pieces of the laws of joints and contacts are found by trial: mostly the first is right. Contacts are tried as
 /// pieces of their law, then as dampers, then as lesser ones, and at last without friction where nothing else fits.
 constexpr int most_pieces = 5, most_drags = 9, most_yields = 14, most_trials = 18;
-/// So often restitution is taken back, where it gives energy.
-constexpr int most_rebounds = 8;
 MURO_INLINE Search search_of(int trial) {
   return trial < most_pieces   ? Search::pieces
          : trial < most_drags  ? Search::drags
@@ -201,16 +199,13 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   if (s.count == 1 && !s.fixed && contacts.rebounds()) momentum = momentum_of(s, masses, bodies);
   const V3<S> gravity = splat<S>(batch.gravity), zero{S(0), S(0), S(0)};
   const V3<S> fall = s.fixed ? transposed_times(bodies[0].axes, -gravity) : zero;
-  int rebounds = 0;
   for (int trial = 1;; ++trial) {
     contacts.add_terms();
     if (trial > 1) joints.set_terms();
     accelerate_all(s, masses, work, fall, S(1 / dt));
     const bool loads = contacts.settle(search_of(trial));
     const bool others = trial < most_trials && joints.look_again(which);
-    if (trial < most_trials && (others || loads)) continue;
-    if (rebounds == most_rebounds || !contacts.take_back_energy(++rebounds == most_rebounds)) break;
-    trial = 0;
+    if (trial == most_trials || (!others && !loads)) break;
   }
   MaskOf<S> is_smooth = untouched;
   if (batch.runge_kutta) {
@@ -235,8 +230,8 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
     if (any(time > S(0))) base.advance(time, start->twist, S(dt) * gravity);
   }
   if (momentum) {
-    take_gained_energy(s, masses, bodies[0], *momentum, momentum->mass * gravity, contacts.external_force(), dt,
-                       base.pose, base.twist);
+    take_gained_energy(s, masses, bodies[0], *momentum, momentum->mass * gravity, dt, contacts.keep_energy(), base.pose,
+                       base.twist);
   }
   if (!s.fixed) base.store(which);
   joints.store(which);
