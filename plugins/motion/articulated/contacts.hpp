@@ -75,11 +75,11 @@ class Contacts {
     }
   }
 
-  /// Whether something is hit that is elastic.
-  bool rebounds() const { return any(rebounds_ > S(0)); }
-  /// Robots of which something is hit that is elastic, but those that another robot pushes, or that touch what moves by
+  /// Whether something is hit.
+  bool hits() const { return any(hits_ > S(0)); }
+  /// Robots of which something is hit, but those that another robot pushes, or that touch what moves by
   /// itself: these may get energy from there.
-  MaskOf<S> keep_energy() const { return (rebounds_ > S(0)) & !((dot(force_, force_) > S(0)) | (moved_ > S(0))); }
+  MaskOf<S> keep_energy() const { return (hits_ > S(0)) & !((dot(force_, force_) > S(0)) | (moved_ > S(0))); }
 
   /// Tells and keeps what contacts have done. Returns whether some have not done what was tried, but will do in the
   /// next trial.
@@ -283,7 +283,7 @@ class Contacts {
     slot.comes_in = select(is_new | is_hit, S(1), zero);
     p.gained = zero;
     if (!any(is_hit)) return;
-    rebounds_ += select(is_hit & (p.restitution > zero), S(1), zero);
+    hits_ += select(is_hit, S(1), zero);
     if (batch_.structure.count == 1)
       p.gained = time_since_touch(slot) * max(-dot(work_.drifts[slot.body] - cross(body.w, body.v), p.normal), zero);
     // it is hit where its surface is, before it went in
@@ -373,8 +373,8 @@ class Contacts {
   double mean_part_ = 0;  ///< of mean loads: what the last step makes of them
   Places<S> wrenches_;
   bool has_wrenches_ = false;
-  S rebounds_{0};  ///< above 0 where something is hit that is elastic
-  S moved_{0};     ///< above 0 where something that is touched moves
+  S hits_{0};   ///< above 0 where something is hit
+  S moved_{0};  ///< above 0 where something that is touched moves
   bool knows_pushes_ = false;
   V3<S> pushed_alpha_, pushed_a_;  ///< by wrenches alone, where pushes are known
   V3<S> force_, torque_;
