@@ -34,8 +34,6 @@ constexpr Exception exceptions[] = {
     {"motion.simplified", "joints without mass integrate targets of velocity", 2.1e-4,
      "speeds up evenly within its first step: behind by half of it"},
     {"motion.articulated", "a ball of restitution 0 stays down", 0.04, "at 250 Hz: its contacts are springs"},
-    {"motion.simplified", "a ball of restitution 0 stays down", 0.013,
-     "at 250 Hz a spring takes back what it falls within the step of the impact"},
     {"motion.articulated", "a ball rebounds by its restitution wherever in a step it lands", 0.08,
      "at 250 Hz: its contacts are springs"},
     {"motion.ode", "a leader swings with what its mimic carries", 1, "ODE has no constraint between two joints"},
