@@ -104,8 +104,8 @@ class RandomBodies {
     if (kind == 4) file = folder_.file(name + ".obj", mesh::testing::obj_text(cloud(0.5 * size, random_)));
     const Vec3 extent = kind == 0 || kind == 4 ? size : Vec3(size.x(), size.x(), kind == 1 ? size.x() : size.z());
     Inertia inertia = solid_box(mass, extent);
-    const Pose at{{apart * (i % side) - half + 0.5 * apart, apart * (i / side) - half + 0.5 * apart, 0.6},
-                  random_.rotation()};
+    const int column = i % side, row = i / side;
+    const Pose at{{apart * (column + 0.5) - half, apart * (row + 0.5) - half, 0.6}, random_.rotation()};
     const Twist twist{random_.uniform(0, 2) * random_.direction(), random_.uniform(0, 10) * random_.direction()};
     const RobotTree tree = test::tree_of([&](RobotBuilder& b) {
       if (!file.empty()) shape.mesh = b.intern(file);
