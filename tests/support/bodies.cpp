@@ -22,6 +22,11 @@ Inertia solid_box(double mass, const Vec3& size) {
   return {.mass = mass, .ixx = q.y() + q.z(), .iyy = q.x() + q.z(), .izz = q.x() + q.y()};
 }
 
+Inertia solid_cylinder(double mass, double radius, double length) {
+  const double across = mass * (3 * radius * radius + length * length) / 12;
+  return {.mass = mass, .ixx = across, .iyy = across, .izz = mass * radius * radius / 2};
+}
+
 Inertia round_body(double mass, double radius, double factor) {
   const double i = factor * mass * radius * radius;
   return {.mass = mass, .ixx = i, .iyy = i, .izz = i};

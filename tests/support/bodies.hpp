@@ -12,6 +12,8 @@ Shape with(Shape shape, double friction, double restitution = 0);
 RobotTree single_body(const Shape& shape, const Inertia& inertia);
 
 Inertia solid_box(double mass, const Vec3& size);
+/// About its axis, z.
+Inertia solid_cylinder(double mass, double radius, double length);
 /// `factor` m r^2 about every axis: 2/5 for a solid sphere.
 Inertia round_body(double mass, double radius, double factor = 0.4);
 

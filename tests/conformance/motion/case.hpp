@@ -83,6 +83,7 @@ const Description& description_of(const std::string& motion);
 using test::ball;
 using test::block;
 using test::solid_box;
+using test::solid_cylinder;
 using test::with;
 
 std::string text(double x);

@@ -62,6 +62,19 @@ struct Energies {
   double held_by_springs = 0;  ///< J
 };
 
+/// What `sample()` says after each step, in the mean of 50 ms.
+template <class Sample>
+Energies mean_of_window(Trial& t, double rate, const Sample& sample) {
+  const int steps = int(0.05 * rate);
+  Energies mean;
+  for (int i = 0; i < steps; ++i) {
+    t.run_for(1 / rate);
+    const Energies now = sample();
+    mean.of_body += now.of_body / steps, mean.held_by_springs += now.held_by_springs / steps;
+  }
+  return mean;
+}
+
 /// Of the energy at the start: what a body has at most more, at any later time, than it and springs had before, whose
 /// part counts up to `most_held` (J). `first`: of `means`.
 inline double gain_of(std::span<const Energies> means, double most_held = std::numeric_limits<double>::infinity(),

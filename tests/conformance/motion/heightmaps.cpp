@@ -127,9 +127,8 @@ Outcome rolls(const std::string& motion) {
 }
 
 Outcome cylinder_rolls(const std::string& motion) {
-  constexpr double angle = 20 * M_PI / 180, r = 0.1, l = 0.25, across = (3 * r * r + l * l) / 12;
-  const RobotTree tree =
-      test::single_body(with(Shape::cylinder(r, l), 0.5), {.mass = 1, .ixx = across, .iyy = across, .izz = r * r / 2});
+  constexpr double angle = 20 * M_PI / 180, r = 0.1, l = 0.25;
+  const RobotTree tree = test::single_body(with(Shape::cylinder(r, l), 0.5), solid_cylinder(1, r, l));
   SlopeOfCells t(motion, angle, 0.5, tree, r, from_rpy(M_PI / 2, 0, 0));
   return relative(t.gain_of_speed(), 2.0 / 3 * g * std::sin(angle));
 }
@@ -284,9 +283,8 @@ Outcome swings_in_a_gutter(const std::string& motion) {
   const Hills hills(401, 21, 1.2, 1, [](double x, double) { return gutter - std::sqrt(gutter * gutter - x * x); });
   Trial t(motion);
   hills.stand_in(t, 0.8);
-  const double mass = 1, length = 0.2, across = mass * (3 * rim * rim + length * length) / 12;
-  const RobotTree tree = test::single_body(with(Shape::cylinder(rim, length), 0.8),
-                                           {.mass = mass, .ixx = across, .iyy = across, .izz = mass * rim * rim / 2});
+  const double length = 0.2;
+  const RobotTree tree = test::single_body(with(Shape::cylinder(rim, length), 0.8), solid_cylinder(1, rim, length));
   const double way = gutter - rim;
   const RobotView& r =
       t.add("disk", tree, {{way * std::sin(width), 0, gutter - way * std::cos(width)}, from_rpy(M_PI / 2, 0, 0)});

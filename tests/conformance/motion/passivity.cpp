@@ -27,11 +27,6 @@ struct PassiveBody {
   double friction = 1;
 };
 
-Inertia solid_cylinder(double mass, double rim, double length) {
-  const double across = mass * (3 * rim * rim + length * length) / 12;
-  return {.mass = mass, .ixx = across, .iyy = across, .izz = mass * rim * rim / 2};
-}
-
 std::vector<Energies> energies(const std::string& motion, const PassiveBody& s, double rate) {
   Trial t(motion, rate);
   t.add_ground(s.friction);
@@ -49,15 +44,10 @@ std::vector<Energies> energies(const std::string& motion, const PassiveBody& s, 
     return held_by_springs(motion, s.inertia, t.pose(r), t.world().values(r.base(), keys::contacts), rate);
   };
   std::vector<Energies> means{{energy_of(s.inertia, s.at, s.twist), 0}};
-  const int steps = int(0.05 * rate);
   for (int k = 0; k < int(20 * s.seconds); ++k) {
-    Energies mean;
-    for (int i = 0; i < steps; ++i) {
-      t.run_for(1 / rate);
-      mean.of_body += energy_of(s.inertia, t.pose(r), t.twist(r)) / steps;
-      mean.held_by_springs += held() / steps;
-    }
-    means.push_back(mean);
+    means.push_back(mean_of_window(t, rate, [&] {
+      return Energies{energy_of(s.inertia, t.pose(r), t.twist(r)), held()};
+    }));
   }
   return means;
 }
@@ -239,8 +229,7 @@ Outcome rolling_ellipsoid(const std::string& motion) {
                   .twist = {{0.3, 0, 0}, {0, 3, 5}}});
 }
 
-/// A chain of ten links that lies on a table, half of it over the edge: of all energy that its fall can give it, what
-/// it has at most more at any later time than before.
+/// A chain of ten links that lies on a table, half of it over the edge.
 Outcome chain_over_an_edge(const std::string& motion) {
   constexpr int count = 10;
   constexpr double length = 0.1, thick = 0.01, mass = 0.05, height = 1;  // m, m, kg, m
@@ -275,18 +264,9 @@ Outcome chain_over_an_edge(const std::string& motion) {
       return sum;
     };
     t.run_for(1 / rate);
-    double least = energy(), gain = 0;
-    for (int k = 0; k < 20; ++k) {
-      double mean = 0;
-      const int steps = int(0.05 * rate);
-      for (int i = 0; i < steps; ++i) {
-        t.run_for(1 / rate);
-        mean += energy() / steps;
-      }
-      gain = std::max(gain, mean - least);
-      least = std::min(least, mean);
-    }
-    gain /= count * mass * g * height;
+    std::vector<Energies> means{{energy(), 0}};
+    for (int k = 0; k < 20; ++k) means.push_back(mean_of_window(t, rate, [&] { return Energies{energy(), 0}; }));
+    const double gain = gain_of(means);
     worst.error = std::max(worst.error, gain);
     worst.seen += text(gain) + " at " + text(rate) + " Hz ";
   }

@@ -15,8 +15,8 @@ enum class Ground { plane, mesh, heightmap };
 
 double hill(double x, double y) { return 0.15 * std::sin(0.7 * x) * std::cos(0.5 * y); }
 
-constexpr int side = 8;       // bodies along each side of the square
-constexpr double apart = 12;  // m: none meets another
+constexpr int side = 8;       ///< bodies along each side of the square
+constexpr double apart = 12;  ///< m: none meets another
 constexpr double half = 0.5 * side * apart;
 
 mesh::Mesh hills_as_mesh() {

@@ -31,9 +31,7 @@ Outcome hollow(const std::string& motion) {
 }
 Outcome cylinder(const std::string& motion) {
   const double r = 0.1, l = 0.3;
-  const double across = (3 * r * r + l * l) / 12;
-  const RobotTree tree =
-      test::single_body(with(Shape::cylinder(r, l), 0.5), {.mass = 1, .ixx = across, .iyy = across, .izz = r * r / 2});
+  const RobotTree tree = test::single_body(with(Shape::cylinder(r, l), 0.5), solid_cylinder(1, r, l));
   return relative(rolls(motion, tree, r, from_rpy(M_PI / 2, 0, 0)), 2.0 / 3 * g * std::sin(slope));
 }
 
