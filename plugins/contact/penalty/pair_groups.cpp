@@ -4,21 +4,20 @@
 #include <numeric>
 
 #include "pair_contacts.hpp"
+#include "plugins/common/contact_geometry/contact_load.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "vectors.hpp"
 
 namespace muro::penalty {
 namespace {
 
+using contact_geometry::load_mean_over, contact_geometry::standard_gravity;
+
 /// Robots whose masses differ by more are solved together.
 constexpr double similar_masses = 3;
 /// A normal that rises more steeply belongs to a contact that carries: 17 degrees, its sine.
 constexpr double rising = 0.3;
-/// m/s^2
-constexpr double standard_gravity = 9.80665;
-/// s: what a contact has borne for so long it is stiff enough for, if it is more than its bodies weigh.
-constexpr double load_mean_over = 0.1;
-/// It is so many times the mass of a group at most.
+/// What drives press is so many times the mass of a group at most.
 constexpr double most_pressed = 1000;
 
 /// Whether all that acts on the robot is known here, beside external wrenches: it is one body, and all its contacts are
@@ -197,13 +196,11 @@ double PairContacts::apparent_mass_across(std::uint32_t self, const Computed& c)
   return record(self).patches[c.patch].effective_mass.across / std::max(record(self).shared, other);
 }
 
-/// m: the depth whose spring acts, where all that acts on bodies is known. What they fall into each other within long
-/// steps is parted slowly, else it would throw them; what is deep in, faster; as motion.articulated does it.
+/// m: the depth whose spring acts, where all that acts on bodies is known.
 double PairContacts::parted_depth(double depth) const {
-  constexpr double least = 0.04, depth_at_full_speed = 0.1;  // m
-  const double omega = context_.omega, part = std::clamp(depth / depth_at_full_speed, least, 1.0);
-  const double of_two_weights = 2 * standard_gravity / (omega * omega);
-  return std::min(depth, std::max(part * 2 * context_.correcting_speed / omega, of_two_weights));
+  const double omega = context_.omega;
+  return contact_geometry::parted_depth(depth, 2 * context_.correcting_speed / omega,
+                                        2 * standard_gravity / (omega * omega));
 }
 
 /// Joints may hold a link, and then friction does not move it: what it holds would creep if the link were taken to give

@@ -6,6 +6,7 @@
 // at no extra pass, and neither light feet nor hard ground bound the step.
 #pragma once
 
+#include "plugins/common/contact_geometry/contact_load.hpp"
 #include "spatial.hpp"
 
 namespace muro::articulated::lanes {
@@ -173,10 +174,7 @@ MURO_INLINE void add_terms(const ContactPoint<S>& p, const ContactStep<S>& c, In
 /// N: of spring and damper along the normal. `speed`: m/s, away from what is touched.
 template <class S>
 MURO_INLINE S soft_push(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed) {
-  // what is deep in is parted faster
-  constexpr double least = 0.04, depth_at_full_speed = 0.1;  // m
-  const S part = max(min(p.depth * S(1 / depth_at_full_speed), S(1)), S(least));
-  const S own = law.for_weight * min(p.depth, max(part * law.most_depth, law.least_cap));
+  const S own = law.for_weight * contact_geometry::parted_depth(p.depth, law.most_depth, law.least_cap);
   return own + min((law.stiffness - law.for_weight) * p.depth, law.most_more) - law.held * speed;
 }
 

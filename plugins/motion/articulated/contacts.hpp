@@ -8,10 +8,9 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
+using contact_geometry::load_mean_over, contact_geometry::standard_gravity;
 using lane::any, lane::as_read, lane::count_of, lane::load_rows, lane::Places;
 
-/// m/s^2
-inline constexpr double standard_gravity = 9.80665;
 /// What robots have that do not touch: far from everything, at rest.
 inline constexpr double no_contact[7] = {0, 0, 0, 0, 0, 1, -1}, no_surface[4] = {}, nothing_kept[kept_numbers] = {},
                         at_rest[6] = {};
@@ -77,8 +76,8 @@ class Contacts {
 
   /// Whether something is hit.
   bool hits() const { return any(hits_ > S(0)); }
-  /// Robots of which something is hit, but those that another robot pushes, or that touch what moves by
-  /// itself: these may get energy from there.
+  /// Robots of which something is hit, but those that another robot pushes, or that touch what moves by itself: these
+  /// may get energy from there.
   MaskOf<S> keep_energy() const { return (hits_ > S(0)) & !((dot(force_, force_) > S(0)) | (moved_ > S(0))); }
 
   /// Tells and keeps what contacts have done. Returns whether some have not done what was tried, but will do in the
@@ -105,8 +104,7 @@ class Contacts {
       set(radius, i, robots[i < count ? i : 0].radius);
     }
     const S omega(batch_.omega);
-    constexpr double mean_over = 0.1;  // s
-    mean_part_ = batch_.dt < mean_over ? batch_.dt / mean_over : 1;
+    mean_part_ = batch_.dt < load_mean_over ? batch_.dt / load_mean_over : 1;
     weight_ = mass * sqrt(dot(gravity_, gravity_));
     const S stiffness = mass * omega * omega, damping = S(2) * mass * omega;
     law_ = {stiffness,

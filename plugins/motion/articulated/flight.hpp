@@ -63,6 +63,8 @@ class Flight {
   Flight(const Structure& s, const Masses<S>& masses, Work<S>& work)
       : s_(s), masses_(masses), work_(work), start_(momentum_of(s, masses, work.bodies)) {}
 
+  const Momentum<S>& start() const { return start_; }
+
   /// When joints have moved. `untouched`: robots whose bodies lie where the middle of the step finds them, with the
   /// position of the start; those of the others have the start. `force`, `torque`: from outside, at the origin of the
   /// base, of contacts as well where it is the only body. Changes bodies.

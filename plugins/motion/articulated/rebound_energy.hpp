@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The energy of a body that rebounds. Contacts give it velocities for where it is as the step begins; where it has
+// The energy of a body that is hit. Contacts give it velocities for where it is as the step begins; where it has
 // turned by the end of the step, these may be more than it had. Then what contacts have done counts in that part which
 // leaves it no more (Stronge, Impact Mechanics, 2000, section 3.3: restitution of energy).
 #pragma once
@@ -15,9 +15,8 @@ MURO_INLINE S twice_energy(const V3<S>& linear, const V3<S>& angular, S mass, co
   return dot(linear, linear) / mass + dot(angular, inverse_tensor * angular);
 }
 
-/// Of robots that are one body. `before`: at the begin of the step; `weight`: N; `dt`: s; `which`: robots
-/// that rebound, and to which nothing gives energy; `pose`: of the base, at the end; `twist`: there, in and out.
-/// Changes the body.
+/// Of robots that are one body. `before`: at the begin of the step; `weight`: N; `dt`: s; `which`: robots that are hit,
+/// and to which nothing gives energy; `pose`: of the base, at the end; `twist`: there, in and out. Changes the body.
 template <class S>
 [[gnu::noinline]] void take_gained_energy(const Structure& s, const Masses<S>& masses, BodyStep<S>& body,
                                           const Momentum<S>& before, const V3<S>& weight, double dt, MaskOf<S> which,

@@ -196,7 +196,7 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
 
   joints.find_laws(masses);
   Contacts<S> contacts(batch, robots, count, masses, work);
-  if (s.count == 1 && !s.fixed && contacts.hits()) momentum = momentum_of(s, masses, bodies);
+  if (s.count == 1 && !s.fixed && contacts.hits()) momentum = flight ? flight->start() : momentum_of(s, masses, bodies);
   const V3<S> gravity = splat<S>(batch.gravity), zero{S(0), S(0), S(0)};
   const V3<S> fall = s.fixed ? transposed_times(bodies[0].axes, -gravity) : zero;
   for (int trial = 1;; ++trial) {
