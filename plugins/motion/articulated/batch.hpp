@@ -9,15 +9,16 @@ namespace muro::articulated {
 
 /// A contact that a step resolves. Numbers as they lie in properties.
 struct KernelContact {
-  const double* place = nullptr;    ///< point, normal, depth: m, world
-  const double* surface = nullptr;  ///< friction, restitution, resistance to rolling and to spinning
-  double* kept = nullptr;           ///< from its point on, as KeptContact
-  const double* other = nullptr;    ///< velocity of what it touches at the point, and its spin; null: it does not move
-  double shift[3] = {};             ///< m, world: from the point to where its friction acts, see pressure_cells.hpp
-  double rim[3] = {};               ///< m, in the frame of the body: see contact_geometry::ShapeExtent
+  /// Point, normal, depth (m, world); friction, restitution, resistance to rolling and to spinning.
+  const double* place = nullptr;
+  double* kept = nullptr;         ///< from its point on, as KeptContact
+  const double* other = nullptr;  ///< velocity of what it touches at the point, and its spin; null: it does not move
+  double shift[3] = {};           ///< m, world: from the point to where its friction acts, see pressure_cells.hpp
+  double rim[3] = {};             ///< m, in the frame of the body: see contact_geometry::ShapeExtent
   int body = 0;
   bool resists_turning = false;
   bool has_rim = false;
+  bool has_cell = false;  ///< it is one of several points of a line or face
 };
 /// How many joints of a robot may follow others.
 inline constexpr int most_mimics = 32;

@@ -30,6 +30,7 @@ struct ContactPoint {
   S friction;          ///< coefficient
   S restitution;
   S load;        ///< N: the normal force that bounds friction
+  S push;        ///< N: of spring and damper along the normal, see soft_push()
   V3<S> slip;    ///< m/s, of where its friction acts across the normal, about which friction counts as linear
   S pushed;      ///< m/s: what other forces add to its velocity along the normal, where that is known
   S gained;      ///< m/s: what its approach has gained since it touched, where that is known
@@ -202,18 +203,18 @@ MURO_INLINE MaskOf<S> is_impact(const ContactPoint<S>& p, const ContactLaw<S>& l
 }
 
 /// `own`: m/s, of the point on the body; `more`: m/s^2, cross(w, v) of the body and gravity, in its frame, since
-/// accelerations count from them; `dt`: s. The way from the body's origin to the point counts as one that does not
-/// turn beyond what `own` has of it.
+/// accelerations count from them; `spins`: see ContactSlot; `dt`: s. The way from the body's origin to the point counts
+/// as one that does not turn beyond what `own` has of it.
 template <class S>
 MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const V3<S>& own,
-                                 const V3<S>& more, double dt) {
+                                 const V3<S>& more, bool spins, double dt) {
   const S h(dt), zero(0);
   const V3<S> velocity = own - p.velocity, none{zero, zero, zero};
   const S speed = dot(velocity, p.normal);
   const MaskOf<S> is_on = p.is_on > zero;
   ContactStep<S> c;
   // along: spring and damper; an impact reaches the velocity of its rebound, whatever it takes
-  S push = soft_push(p, law, speed), along = h * law.held;
+  S push = p.push, along = h * law.held;
   c.held = law.held;
   const S approach = speed + p.pushed;
   const auto is_hit = is_impact(p, law, approach);
@@ -225,7 +226,7 @@ MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& 
     along = select(is_hit, h * impact_damping, along);
     c.held = select(is_hit, impact_damping, c.held);
   }
-  const S limit = p.friction * p.load, give = give_of_cell(p, c.held, limit);
+  const S limit = p.friction * p.load, give = spins ? give_of_cell(p, c.held, limit) : S(1);
   BoundedSpring<S> hold(p.displacement, p.slip, law.stiffness * give, c.held * give, limit, is_on & !(p.sticks > zero));
   const MaskOf<S> drags = p.drags > zero;
   if (lane::any(drags)) {

@@ -32,17 +32,18 @@ template <class S>
 /// It goes on as in the last two steps, on a parabola, or where these differ much, as in the shorter one, since points
 /// of edges and corners jump. Where they are not known, it is the lowest point of a rim, or turns with the body about
 /// the normal, as on a wheel that rolls along a curve. `way`, `last`: m, world, of the last step and of that before;
-/// `normal`, `arm` (m, to the point): in the frame of the body; `rims`: null where there are none.
-template <class S>
+/// `normal`, `arm` (m, to the point): in the frame of the body; `rims()`: as along_rim() has it, where some have rims.
+template <class S, class Rims>
 MURO_INLINE Travel<S> travel_of(const V3<S>& way, const V3<S>& last, MaskOf<S> is_known, const V3<S>& normal,
-                                const V3<S>& arm, const BodyStep<S>& body, const lane::Places<S>* rims, double dt) {
-  const S zero(0), square = dot(way, way), of_last = dot(last, last);
+                                const V3<S>& arm, const BodyStep<S>& body, bool has_rims, const Rims& rims, double dt) {
+  constexpr double least = 1e-12;  // m: less is rounding
+  const S square = dot(way, way), of_last = dot(last, last), rest(least * least);
   const V3<S> change = way - last, shorter = select(square < of_last, way, last);
-  const MaskOf<S> goes_on = is_known & (min(square, of_last) > zero);
+  const MaskOf<S> goes_on = is_known & (min(square, of_last) > rest);
   V3<S> turned = S(dt) * (dot(body.w, normal) * cross(normal, arm));
-  const MaskOf<S> is_fresh = (!is_known) | ((square > zero) & !goes_on);
-  if (rims && lane::any(is_fresh))
-    turned = select(is_fresh, along_rim(lane::load_vector(*rims), normal, arm, body.w, dt, turned), turned);
+  const MaskOf<S> is_fresh = (!is_known) | ((square > rest) & !goes_on);
+  if (has_rims && lane::any(is_fresh))
+    turned = select(is_fresh, along_rim(rims(), normal, arm, body.w, dt, turned), turned);
   if (!lane::any(goes_on)) return {S(0.5) * turned, turned};
   const MaskOf<S> bends = dot(change, change) < S(0.25) * min(square, of_last);
   const V3<S> half = select(bends, S(0.5) * way + S(0.375) * change, S(0.5) * shorter);

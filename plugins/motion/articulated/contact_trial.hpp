@@ -57,12 +57,14 @@ MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>
   Misfit<S> m;
   m.is_drawn = is_on & (o.load < zero);
   m.across = o.force - o.load * p.normal;
-  const S most = p.friction * load, give = slot.has_cells ? give_of_cell(p, slot.step.held, most) : S(1);
+  const S most = p.friction * load, give = slot.spins ? give_of_cell(p, slot.step.held, most) : S(1);
   m.held = slot.step.held * give;
   const V3<S> hold = (law.stiffness * give) * p.displacement + m.held * o.slip;
   const S square = dot(hold, hold);
   const MaskOf<S> is_small = square <= most * most;
-  const V3<S> friction = hold * select(is_small, S(-1), -most / sqrt(max(square, S(1e-24))));
+  S part(-1);
+  if (lane::bits(is_small) != lane::all_lanes<S>) part = select(is_small, part, -most / sqrt(max(square, S(1e-24))));
+  const V3<S> friction = hold * part;
   m.most = most;
   // what friction lacks in a step comes in the next ones, but for impacts
   constexpr double precision = 0.1, of_weight = 1e-3, of_cone = 0.005, of_impact = 0.001;

@@ -2,6 +2,8 @@
 // The contacts and external wrenches of a pack of robots within a step.
 #pragma once
 
+#include <algorithm>
+
 #include "contact_travel.hpp"
 #include "contact_trial.hpp"
 
@@ -12,8 +14,8 @@ using contact_geometry::load_mean_over, contact_geometry::standard_gravity;
 using lane::any, lane::as_read, lane::count_of, lane::load_rows, lane::Places;
 
 /// What robots have that do not touch: far from everything, at rest.
-inline constexpr double no_contact[7] = {0, 0, 0, 0, 0, 1, -1}, no_surface[4] = {}, nothing_kept[kept_numbers] = {},
-                        at_rest[6] = {};
+inline constexpr double no_contact[11] = {0, 0, 0, 0, 0, 1, -1}, nothing_kept[kept_numbers] = {}, at_rest[6] = {};
+inline constexpr KernelContact no_kernel_contact{.place = no_contact};
 
 template <class S>
 class Contacts {
@@ -66,7 +68,7 @@ class Contacts {
     for (int i = 0; i < work_.contact_count; ++i) {
       ContactSlot<S>& slot = work_.contacts[i];
       Inertia<S>& to = work_.external[slot.body];
-      slot.step = touch(slot.point, law_of(slot), slot.velocity, work_.drifts[slot.body], batch_.dt);
+      slot.step = touch(slot.point, law_of(slot), slot.velocity, work_.drifts[slot.body], slot.spins, batch_.dt);
       lanes::add_terms(slot.point, slot.step, to);
       if (slot.has_cells) add_turn(slot.point, slot.step, to);
       if (slot.resists_turning != 0)
@@ -176,54 +178,53 @@ class Contacts {
 
   /// The next contacts of all robots that are on the body with the lowest number make up a slot.
   void load_contacts(const RobotState* robots, int count) {
-    static constexpr KernelContact none{no_contact, no_surface, nullptr, nullptr, {}, {}, 0, false, false};
-    int next[count_of<S>] = {};
-    work_.contact_count = 0;
-    for (;;) {
-      int body = batch_.structure.count;
-      for (int i = 0; i < count; ++i)
-        if (next[i] < robots[i].contact_count && robots[i].contacts[next[i]].body < body)
-          body = robots[i].contacts[next[i]].body;
-      if (body == batch_.structure.count) return;
+    const KernelContact* next[count_of<S>];
+    int body_of_next[count_of<S>];
+    const int none = batch_.structure.count;
+    const auto look = [&](int i) { body_of_next[i] = next[i] == end_of(robots[i]) ? none : next[i]->body; };
+    for (int i = 0; i < count; ++i) next[i] = robots[i].contacts, look(i);
+    for (work_.contact_count = 0;;) {
+      int body = none;
+      for (int i = 0; i < count; ++i) body = std::min(body, body_of_next[i]);
+      if (body == none) return;
+      const bool is_first = work_.contact_count == 0 || work_.contacts[work_.contact_count - 1].body != body;
       ContactSlot<S>& slot = work_.contacts[work_.contact_count++];
       slot.body = body, slot.which = 0;
       const KernelContact* of_robot[count_of<S>];
       for (int i = 0; i < count_of<S>; ++i) {
-        of_robot[i] = &none;
-        if (i >= count || next[i] == robots[i].contact_count || robots[i].contacts[next[i]].body != body) continue;
-        slot.wrench.at[i] = robots[i].contact_wrenches + 6 * next[i];
-        of_robot[i] = robots[i].contacts + next[i]++;
+        of_robot[i] = &no_kernel_contact;
+        if (i >= count || body_of_next[i] != body) continue;
+        slot.wrench.at[i] = robots[i].contact_wrenches + 6 * (next[i] - robots[i].contacts);
+        of_robot[i] = next[i]++;
         slot.which |= 1u << i;
+        look(i);
       }
-      if (!work_.acts_on[body] || work_.contact_count == 1 || work_.contacts[work_.contact_count - 2].body != body) {
+      if (is_first) {
         const BodyStep<S>& b = work_.bodies[body];
         work_.drifts[body] = cross(b.w, b.v) + transposed_times(b.axes, gravity_);
+        work_.acts_on[body] = work_.external + body;
       }
-      work_.acts_on[body] = work_.external + body;
       load_slot(of_robot, slot);
     }
   }
+  static const KernelContact* end_of(const RobotState& robot) { return robot.contacts + robot.contact_count; }
 
   void load_slot(const KernelContact* const (&of_robot)[count_of<S>], ContactSlot<S>& slot) {
-    Places<S> place, surface, kept, velocity, shift, rim;
+    Places<S> place, kept;
     slot.resists_turning = 0;
-    slot.has_cells = false;
-    bool moves = false, has_rims = false;
+    bool moves = false, has_rims = false, has_cells = false;
     for (int i = 0; i < count_of<S>; ++i) {
       const KernelContact& c = *of_robot[i];
-      place.at[i] = c.place, surface.at[i] = c.surface;
-      kept.at[i] = c.kept ? c.kept : nothing_kept, slot.kept.at[i] = c.kept;
-      velocity.at[i] = c.other ? c.other : at_rest;
-      if (c.resists_turning) slot.resists_turning |= 1u << i;
-      moves = moves || c.other;
-      shift.at[i] = c.shift, rim.at[i] = c.rim;
-      has_rims = has_rims || c.has_rim;
-      slot.has_cells = slot.has_cells || c.shift[0] != 0 || c.shift[1] != 0 || c.shift[2] != 0;
+      place.at[i] = c.place, slot.kept.at[i] = c.kept;
+      kept.at[i] = c.kept ? c.kept : nothing_kept;
+      slot.resists_turning |= unsigned(c.resists_turning) << i;
+      moves |= c.other != nullptr, has_rims |= c.has_rim, has_cells |= c.has_cell;
     }
+    slot.has_cells = has_cells;
     const BodyStep<S>& body = work_.bodies[slot.body];
     const S zero(0);
-    S at[7], of_surface[2], before[11];
-    load_rows(place, 0, at), load_rows(surface, 0, of_surface), load_rows(kept, 0, before);
+    S at[9], before[11];
+    load_rows(place, 0, at), load_rows(kept, 0, before);
     const V3<S> point{at[0], at[1], at[2]};
     const S load = before[9];
     slot.mean_load = before[10];
@@ -235,12 +236,14 @@ class Contacts {
     const V3<S> last{before[3], before[4], before[5]};
     const MaskOf<S> is_known = (load < zero) | (load > zero);
     slot.way = select(is_known, point - V3<S>{before[0], before[1], before[2]}, {zero, zero, zero});
-    const Travel<S> travel =
-        travel_of(slot.way, last, is_known, p.normal, arm, body, has_rims ? &rim : nullptr, batch_.dt);
+    lane::store_vector(slot.kept, 0, point, slot.which);
+    const auto rims = [&] { return lane::load_vector(places_of(of_robot, [](auto& c) { return c.rim; })); };
+    const Travel<S> travel = travel_of(slot.way, last, is_known, p.normal, arm, body, has_rims, rims, batch_.dt);
     p.arm = arm + travel.half;
     p.depth = at[6];
     p.velocity = p.spin = {zero, zero, zero};
     if (moves) {
+      const auto velocity = places_of(of_robot, [](auto& c) { return c.other ? c.other : at_rest; });
       const lane::TwistOf<S> other = lane::load_twist(velocity);
       p.velocity = transposed_times(body.axes, other.linear);
       p.spin = transposed_times(body.axes, other.angular);
@@ -248,27 +251,31 @@ class Contacts {
     }
     const V3<S> d = transposed_times(body.axes, V3<S>{before[6], before[7], before[8]});
     p.displacement = d - dot(d, p.normal) * p.normal;
-    p.friction = of_surface[0], p.restitution = of_surface[1];
+    p.friction = at[7], p.restitution = at[8];
     if (slot.resists_turning != 0) {
       S of_turning[2], wound[3];
-      load_rows(surface, 2, of_turning), load_rows(kept, 11, wound);
+      load_rows(place, 9, of_turning), load_rows(kept, 11, wound);
       slot.turning.rolling = of_turning[0], slot.turning.spinning = of_turning[1];
       slot.turning.displacement = transposed_times(body.axes, V3<S>{wound[0], wound[1], wound[2]});
     }
     slot.velocity = body.v + cross(body.w, arm + travel.all);
     p.turn = {zero, zero, zero}, p.cell_speed = zero;
-    if (slot.has_cells) {
-      p.turn = cross(p.normal, transposed_times(body.axes, lane::load_vector(shift)));
+    slot.spins = false;
+    if (has_cells) {
+      const V3<S> shift = lane::load_vector(places_of(of_robot, [](auto& c) { return c.shift; }));
+      p.turn = cross(p.normal, transposed_times(body.axes, shift));
       const V3<S> more = dot(body.w - p.spin, p.normal) * p.turn;
       slot.velocity += more;
-      p.cell_speed = max(sqrt(dot(more, more)) - S(least_cell_speed), zero);
+      const S square = dot(more, more);
+      slot.spins = any(square > S(least_cell_speed * least_cell_speed));
+      if (slot.spins) p.cell_speed = max(sqrt(square) - S(least_cell_speed), zero);
     }
     const V3<S> velocity_of_point = slot.velocity - p.velocity;
     const S speed = dot(velocity_of_point, p.normal);
     p.slip = velocity_of_point - speed * p.normal;
     p.pushed = knows_pushes_ ? S(batch_.dt) * dot(pushed_a_ + cross(pushed_alpha_, p.arm), p.normal) : zero;
     // what has borne nothing in the last step is tried without
-    const S push = soft_push(p, law, speed);
+    const S push = p.push = soft_push(p, law, speed);
     const MaskOf<S> bore_nothing = load < zero, is_on = pushes(p, law, speed, push) & !bore_nothing;
     p.is_on = select(is_on, S(1), zero);
     // what bears little on its way out may push on: its speed at the begin of the step does not tell
@@ -288,6 +295,14 @@ class Contacts {
     const V3<S> in = select(is_hit, S(-0.5) * p.depth, zero) * p.normal, turning = cross(body.w, in);
     p.arm += in, slot.velocity += turning;
     p.slip += turning - dot(turning, p.normal) * p.normal;
+  }
+
+  /// Of each robot what `get` finds in its contact.
+  template <class Get>
+  MURO_INLINE static Places<S> places_of(const KernelContact* const (&of_robot)[count_of<S>], const Get& get) {
+    Places<S> places;
+    for (int i = 0; i < count_of<S>; ++i) places.at[i] = get(*of_robot[i]);
+    return places;
   }
 
   /// s, of one that comes in.
@@ -326,7 +341,7 @@ class Contacts {
     const S load = select(is_on, max(o.load, S(0)), S(0));
     const V3<S> none{S(0), S(0), S(0)};
     V3<S> slipped = o.slip;
-    if (slot.has_cells)  // less what the damper behind the spring does
+    if (slot.spins)  // less what the damper behind the spring does
       slipped += (o.force - o.load * p.normal) * (p.cell_speed / max(p.friction * max(p.load, load), S(1e-12)));
     const V3<S> displacement =
         bounded(p.displacement + S(batch_.dt) * slipped, p.friction * load, law_of(slot).stiffness);

@@ -250,6 +250,7 @@ void Robot::prepare(double dt) {
   if (interpolates()) advance_targets(dt);
   sum_wrenches();
   add_self_contacts(dt);
+  contacts_.find_cells();
   state_.contacts = contacts_.contacts().data();
   state_.contact_count = int(contacts_.contacts().size());
   state_.is_pushed = contacts_.touches_robots() || !self_contacts_.contacts().empty();
@@ -313,37 +314,39 @@ void Robot::take_impacts(const Step& step) {
                                  *correction);
 }
 
-/// Of the last step; of all links where that is not known.
-void Robot::clear_contact_wrenches() {
-  if (!links_are_clear_)
-    for (const LoadedLink& link : links_)
-      if (link.contact) *link.contact = Wrench{};
-  links_are_clear_ = true;
-  for (const std::uint32_t i : touching_links_) *links_[i].contact = Wrench{};
-  touching_links_.clear();
+/// Those from number `first` on of links that touched in the last step, and now perhaps do not.
+void Robot::clear_contact_wrenches(std::size_t first) {
+  for (std::size_t k = first; k < touching_links_.size(); ++k) *links_[touching_links_[k]].contact = Wrench{};
+  touching_links_.resize(first);
 }
 
 void Robot::export_contacts() {
   if (tells_contacts_) told_.clear();
-  clear_contact_wrenches();
-  contacts_.keep_points();
-  const LoadedLink* pushed = nullptr;  // contacts of one mostly follow each other
-  Wrench* sum = nullptr;
-  Vec3 origin = Vec3::Zero();
-  for (std::size_t i = 0; i < contact_count(); ++i) {
-    const Contact& c = contacts_.contact(i);
-    const double* const n = contact_wrenches_.data() + 6 * i;
-    const Wrench at_point{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+  if (!links_are_clear_)
+    for (const LoadedLink& link : links_)
+      if (link.contact) *link.contact = Wrench{};
+  links_are_clear_ = true;
+  const std::size_t count = contact_count();
+  std::size_t touching = 0;
+  for (std::size_t i = 0; i < count; ++touching) {  // those of one link follow each other
     const std::uint32_t number = contacts_.loaded_link(i);
-    if (pushed != &links_[number]) {
-      pushed = &links_[number];
-      sum = pushed->contact.get();
-      origin = origin_of(number);
-      if (touching_links_.empty() || touching_links_.back() != number) touching_links_.push_back(number);
+    if (touching == touching_links_.size() || touching_links_[touching] != number) {
+      clear_contact_wrenches(touching);
+      touching_links_.push_back(number);
     }
-    sum->add_force(at_point.force, c.point - origin);
-    sum->torque += at_point.torque;
-    if (tells_contacts_) told_.push_back({c.self, c.other, c.point, c.normal, c.depth, at_point});
+    const Vec3 origin = origin_of(number);
+    Wrench sum;
+    for (; i < count && contacts_.loaded_link(i) == number; ++i) {
+      const Wrench at_point = wrench_of_contact(i);
+      sum.add_force(at_point.force, contacts_.point(i) - origin);
+      sum.torque += at_point.torque;
+    }
+    *links_[number].contact = sum;
+  }
+  clear_contact_wrenches(touching);
+  for (std::size_t i = 0; tells_contacts_ && i < count; ++i) {
+    const Contact& c = contacts_.contact(i);
+    told_.push_back({c.self, c.other, c.point, c.normal, c.depth, wrench_of_contact(i)});
   }
   export_self_contacts();
   if (!tells_applied_) return;

@@ -82,8 +82,12 @@ class Robot {
   void sum_wrenches();
   void add_self_contacts(double dt);
   void fetch_touching_links() const;
-  void clear_contact_wrenches();
+  void clear_contact_wrenches(std::size_t first);
   void export_self_contacts();
+  Wrench wrench_of_contact(std::size_t i) const {
+    const double* const n = contact_wrenches_.data() + 6 * i;
+    return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+  }
   Vec3 origin_of(std::uint32_t link) const { return link == 0 ? start_ : links_[link].pose->position; }
 
   std::uint32_t level_;

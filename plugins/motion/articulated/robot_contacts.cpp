@@ -15,6 +15,7 @@ namespace muro::articulated {
 // as kernels read them
 static_assert(offsetof(Contact, normal) == offsetof(Contact, point) + 3 * sizeof(double) &&
               offsetof(Contact, depth) == offsetof(Contact, point) + 6 * sizeof(double) &&
+              offsetof(Contact, surface.friction) == offsetof(Contact, point) + 7 * sizeof(double) &&
               offsetof(Surface, restitution) == sizeof(double) &&
               offsetof(Surface, rolling_resistance) == 2 * sizeof(double) &&
               offsetof(Surface, spinning_resistance) == 3 * sizeof(double) &&
@@ -91,15 +92,7 @@ void RobotContacts::look_up(const TouchedBodies& bodies) {
     keep_what_lasts(bodies);
     revision_ = list_.revision(), length_ = (*list_).size();
   }
-  find_cells();
   if (touches_robots_) look_at_others(bodies);
-}
-
-void RobotContacts::keep_points() const {
-  if (contacts_.empty()) return;
-  const auto list = *list_;
-  const auto kept = *kept_;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) kept[i].point = list[places_[i].in_list].point;
 }
 
 void RobotContacts::find(const TouchedBodies& bodies) {
@@ -117,7 +110,6 @@ void RobotContacts::find(const TouchedBodies& bodies) {
     if (!link) continue;
     KernelContact& contact = contacts_.emplace_back();
     contact.place = c.point.data();
-    contact.surface = &c.surface.friction;
     contact.body = link->body;
     const Vec3 rim = link->orientation * bodies[c.self].shapes[c.self_shape].rim;
     std::copy_n(rim.data(), 3, contact.rim);
@@ -131,12 +123,15 @@ void RobotContacts::find(const TouchedBodies& bodies) {
   find_joins();
 }
 
-/// Contacts stand in the order of links, which is that of bodies but for links behind fixed joints.
+/// By links within a body. Contacts stand in the order of links, which is that of bodies but for links behind fixed
+/// joints.
 void RobotContacts::sort_by_body() {
-  const auto by_body = [](const KernelContact& a, const KernelContact& b) { return a.body < b.body; };
-  if (std::is_sorted(contacts_.begin(), contacts_.end(), by_body)) return;
+  const auto is_before = [this](std::size_t a, std::size_t b) {
+    return contacts_[a].body != contacts_[b].body ? contacts_[a].body < contacts_[b].body
+                                                  : places_[a].link < places_[b].link;
+  };
   for (std::size_t i = 1; i < contacts_.size(); ++i)
-    for (std::size_t k = i; k > 0 && contacts_[k].body < contacts_[k - 1].body; --k) {
+    for (std::size_t k = i; k > 0 && is_before(k, k - 1); --k) {
       std::swap(contacts_[k], contacts_[k - 1]);
       std::swap(places_[k], places_[k - 1]);
     }
@@ -176,18 +171,23 @@ void RobotContacts::find_joins() {
 }
 
 void RobotContacts::find_cells() {
-  const Contact* const list = (*list_).data();
   const auto belongs = [&](std::size_t begin, std::size_t i) {
-    return places_[i].joins &&
-           list[places_[i].in_list].normal.dot(list[places_[begin].in_list].normal) > contact_geometry::same_direction;
+    const double *const a = contacts_[begin].place + 3, *const b = contacts_[i].place + 3;
+    return places_[i].joins && a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > contact_geometry::same_direction;
   };
   contact_geometry::each_patch(contacts_.size(), belongs, [&](std::size_t begin, std::size_t end) {
-    std::fill_n(contacts_[begin].shift, 3, 0.0);
-    if (end == begin + 1) return;
+    KernelContact* const first = contacts_.data() + begin;
+    first->has_cell = end > begin + 1;
+    if (end == begin + 1) {
+      std::fill_n(first->shift, 3, 0.0);
+      return;
+    }
     contact_geometry::find_cells(
-        end - begin, places_[begin].is_of_disc,
-        [&](std::size_t i) { return list[places_[begin + i].in_list].point.data(); },
-        [&](std::size_t i, const Vec3& cell) { std::copy_n(cell.data(), 3, contacts_[begin + i].shift); });
+        end - begin, places_[begin].is_of_disc, [&](std::size_t i) { return first[i].place; },
+        [&](std::size_t i, const Vec3& cell) {
+          for (int n = 0; n < 3; ++n) first[i].shift[n] = cell[n];
+          first[i].has_cell = true;
+        });
   });
 }
 

@@ -40,8 +40,8 @@ class RobotContacts {
 
   /// Finds the contacts of the step that begins. [step, before any robot moves]
   void look_up(const TouchedBodies& bodies);
-  /// For the next step, where contacts are now. [step, after the robot has moved, when its contacts are at hand]
-  void keep_points() const;
+  /// Where friction of the points of lines and faces acts. [step, before the robot moves]
+  void find_cells();
   /// Nothing is known of earlier steps. Takes the memory that steps need. [setup]
   void start();
   /// Another motion has moved the robot so far.
@@ -55,6 +55,8 @@ class RobotContacts {
   bool touches_robots() const { return touches_robots_; }
   /// That of the list which contact `i` is.
   const Contact& contact(std::size_t i) const { return (*list_)[places_[i].in_list]; }
+  /// m, world.
+  Vec3 point(std::size_t i) const { return Vec3::Map(contacts_[i].place); }
   std::uint32_t loaded_link(std::size_t i) const { return places_[i].link; }
 
  private:
@@ -64,7 +66,6 @@ class RobotContacts {
   void sort_by_body();
   void keep_what_lasts(const TouchedBodies& bodies);
   void find_joins();
-  void find_cells();
   void look_at_others(const TouchedBodies& bodies);
 
   struct LinkPlace {
