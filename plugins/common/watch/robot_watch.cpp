@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "parameters.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::watch {
@@ -25,14 +26,31 @@ std::string newtons(double force) {
   return text;
 }
 
+std::string millimetres(double depth) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g mm", 1e3 * depth);
+  return text;
+}
+
+/// The base, and what is fixed to it.
+std::vector<ObjectId> bodies_of_base(const RobotView& robot) {
+  std::vector<ObjectId> bodies;
+  std::vector<bool> is_fixed;
+  for (const Link& link : robot.links) {
+    is_fixed.push_back(link.parent < 0 || (link.joint == JointKind::fixed && is_fixed[std::size_t(link.parent)]));
+    if (is_fixed.back()) bodies.push_back(link.object);
+  }
+  return bodies;
+}
+
 }  // namespace
 
-SceneryNames scenery_names(const Connector& c) {
-  SceneryNames names;
+Obstacles obstacles_of(const Connector& c) {
+  Obstacles obstacles;
   for (std::uint32_t i = 0; i < c.object_count(); ++i)
-    if (c.robot_of(ObjectId{i}) < 0 && !c.constant_array(ObjectId{i}, keys::collision_shapes).empty())
-      names.emplace(i, c.object_name(ObjectId{i}));
-  return names;
+    if (const ObjectId id{i}; !c.constant_array(id, keys::collision_shapes).empty())
+      obstacles.emplace(i, Obstacle{std::string(c.object_name(id)), c.robot_of(id) < 0});
+  return obstacles;
 }
 
 std::string failure_of_numbers(std::string_view robot, const Pose& pose, const Twist& twist, const Wrench& external,
@@ -53,6 +71,8 @@ RobotWatch::RobotWatch(Connector& c, const RobotView& robot, std::span<const dou
     : base_(robot.base()), name_(robot.name) {
   const Reach reach = reach_of(c, robot);
   watch_ = Watch(c, c.parameters(), reach);
+  if (c.parameters().text(watch.name) != "off") resting_depth_ = RestingDepth(reach.of_link[0]);
+  if (c.parameters().text("base") == "fixed") fixed_ = bodies_of_base(robot);
   for (std::size_t i = 1; i < velocities.size(); ++i) {
     if (!velocities[i]) continue;
     const Link& link = robot.links[i];
@@ -68,23 +88,42 @@ void RobotWatch::connect_contacts(Connector& c) {
 
 void RobotWatch::begin(const SumIn<Wrench>* external) {
   begins_ = true;
+  resting_depth_.begin();
   if (external && external->size() > (has_contact_law_ ? 1 : 0)) watch_.allow_pushes();
 }
 
-RobotWatch::Overlap RobotWatch::deepest_overlap(const SceneryNames& scenery) const {
+RobotWatch::Overlap RobotWatch::deepest_overlap(const Obstacles& obstacles) const {
   Overlap deepest;
   if (!contacts_) return deepest;
   for (const Contact& c : *contacts_) {
     // what is neither too deep nor told as a cause needs no name
     if (!(c.depth > deepest.depth) || (!begins_ && c.depth <= told_depth && watch_.allows_depth(c.depth))) continue;
-    const auto name = scenery.find(index_of(c.other));
-    if (name != scenery.end()) deepest = {c.depth, &name->second};
+    const auto obstacle = obstacles.find(index_of(c.other));
+    if (obstacle != obstacles.end() && obstacle->second.is_scenery) deepest = {c.depth, &obstacle->second.name};
   }
   return deepest;
 }
 
-std::string RobotWatch::problem(const Pose& pose, const Twist& twist, const SceneryNames& scenery) {
-  const Overlap overlap = deepest_overlap(scenery);
+bool RobotWatch::is_fixed(ObjectId body) const { return std::find(fixed_.begin(), fixed_.end(), body) != fixed_.end(); }
+
+void RobotWatch::tell_depth(double time, const Obstacles& obstacles, Host& host, std::atomic<bool>& is_told) {
+  if (!contacts_ || is_told.load(std::memory_order_relaxed)) return;
+  const Contact* deepest = nullptr;
+  for (const Contact& c : *contacts_)
+    if ((!deepest || c.depth > deepest->depth) && !is_fixed(c.self)) deepest = &c;
+  if (!resting_depth_.sees(time, deepest ? deepest->depth : 0) || is_told.exchange(true)) return;
+  const auto name_of = [&](ObjectId id) {
+    const auto found = obstacles.find(index_of(id));
+    return found == obstacles.end() ? quote(name_) : quote(found->second.name);
+  };
+  host.log(LogLevel::warning, name_of(deepest->self) + " stands " + millimetres(deepest->depth) + " deep in " +
+                                  name_of(deepest->other) +
+                                  ": contacts are too soft for what they bear at this rate; try a higher rate or a "
+                                  "higher `frequency` of contacts, or another motion (told once)");
+}
+
+std::string RobotWatch::problem(const Pose& pose, const Twist& twist, const Obstacles& obstacles) {
+  const Overlap overlap = deepest_overlap(obstacles);
   if (begins_) {
     watch_.begin(pose.position, twist);
     watch_.begin_overlap(overlap.depth);

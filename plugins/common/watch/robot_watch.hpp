@@ -2,6 +2,7 @@
 // The watch over robots of motions whose contacts a collision algorithm finds: as motions by engines have it.
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <span>
 #include <string>
@@ -10,13 +11,18 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
+#include "resting_depth.hpp"
 #include "watch.hpp"
 
 namespace muro::watch {
 
-/// Names of the scenery, by object.
-using SceneryNames = std::map<std::uint32_t, std::string>;
-SceneryNames scenery_names(const Connector& c);
+/// What robots can touch, by object.
+struct Obstacle {
+  std::string name;
+  bool is_scenery = false;
+};
+using Obstacles = std::map<std::uint32_t, Obstacle>;
+Obstacles obstacles_of(const Connector& c);
 
 /// Why a run ends in which the numbers of a robot are no longer those of bodies: its pose, twist or joints are not.
 /// `external`: the sum of the wrenches on it, `mass`: kg.
@@ -35,7 +41,9 @@ class RobotWatch {
   /// The run begins or goes on; `external`: what adds to the robot's wrench, null where nothing moves its base. [setup]
   void begin(const SumIn<Wrench>* external);
   /// Why the run ends; empty while it goes on.
-  std::string problem(const Pose& pose, const Twist& twist, const SceneryNames& scenery);
+  std::string problem(const Pose& pose, const Twist& twist, const Obstacles& obstacles);
+  /// Says that it stands too deep in something at `time` (s): of all robots that share `is_told` the first.
+  void tell_depth(double time, const Obstacles& obstacles, Host& host, std::atomic<bool>& is_told);
 
  private:
   struct Joint {
@@ -48,9 +56,12 @@ class RobotWatch {
     const std::string* obstacle = nullptr;
   };
 
-  Overlap deepest_overlap(const SceneryNames& scenery) const;
+  Overlap deepest_overlap(const Obstacles& obstacles) const;
+  bool is_fixed(ObjectId body) const;
 
   Watch watch_;
+  RestingDepth resting_depth_;
+  std::vector<ObjectId> fixed_;  ///< bodies that nothing moves, in rising order
   ObjectId base_;
   std::string name_;
   bool begins_ = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Multi-body dynamics by the articulated-body algorithm, robots of one structure in the lanes of vector registers.
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <deque>
 #include <memory>
@@ -49,7 +50,8 @@ class Articulated final : public Algorithm {
     bodies_.connect(c);
     for (const Item& item : c.items()) connect_robot(c, item);
     report(c);
-    scenery_ = watch::scenery_names(c);
+    obstacles_ = watch::obstacles_of(c);
+    host_ = &c.host();
   }
 
   void connect_by_name(Connector& c) override {
@@ -102,7 +104,7 @@ class Articulated final : public Algorithm {
         if (served_[i].robot) served_[i].robot->look_up_contacts(bodies_);
       return;
     }
-    if (step.index % watch::RobotWatch::interval == 0) look_at(range);
+    if (step.index % watch::RobotWatch::interval == 0) look_at(step, range);
     accelerations_.begin_step(range);
     for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
       end = i + 1;
@@ -157,12 +159,13 @@ class Articulated final : public Algorithm {
   void report(Connector& c) const;
 
   /// Throws Error when the watch over one of the robots ends the run.
-  void look_at(Range range) {
+  void look_at(const Step& step, Range range) {
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       const Served& s = served_[i];
       if (!s.robot) continue;
-      const std::string problem = s.watch->problem(s.robot->pose(), s.robot->twist(), scenery_);
+      const std::string problem = s.watch->problem(s.robot->pose(), s.robot->twist(), obstacles_);
       if (!problem.empty()) throw Error(problem);
+      s.watch->tell_depth(step.seconds(), obstacles_, *host_, depth_is_told_);
     }
   }
 
@@ -210,7 +213,9 @@ class Articulated final : public Algorithm {
   std::deque<multibody::KinematicRobot> kinematic_robots_;
   std::deque<watch::RobotWatch> watches_;
   std::vector<Served> served_;  ///< one an item
-  watch::SceneryNames scenery_;
+  watch::Obstacles obstacles_;
+  std::atomic<bool> depth_is_told_ = false;
+  Host* host_ = nullptr;
 };
 
 /// What the user should know of the robots.
