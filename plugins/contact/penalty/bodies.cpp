@@ -38,16 +38,18 @@ void Bodies::connect(Connector& c) {
   sort_by_order_key(by_order_key);
 }
 
-/// One link rests 0.2 mm deep where steps are long. A robot that is fixed presses with its drives, not with its weight.
+/// One link rests 0.2 mm deep where steps are long. A robot with joints presses with its drives, not with the weight
+/// of the link that touches: it is solved as soon as a contact lasts deeper than it should.
 bool Bodies::is_solved_alone(const StepContext& context, std::uint32_t number) const {
-  constexpr double soft = 0.75, deep = 2e-4;  // m
+  constexpr double soft = 0.75, deep = 2e-4, very_deep = 1e-3, slow = 0.01;  // m, m/s
   const Robot& robot = robots[number];
   if (robot.is_one_link) return context.stiffness.omega < soft * context.omega;
   if (robot.is_single_body) return false;
-  const Twist& base = *base_of(robot).twist;
-  if (!base.linear.isZero(0) || !base.angular.isZero(0)) return false;
-  return !(*robot.solved).empty() || std::any_of((*robot.contacts).begin(), (*robot.contacts).end(),
-                                                 [](const Contact& c) { return c.depth > deep; });
+  if (!(*robot.solved).empty()) return true;
+  return std::any_of((*robot.contacts).begin(), (*robot.contacts).end(), [&](const Contact& c) {
+    const auto approach = [&] { return c.normal.dot(velocity(c.other, c.point) - velocity(c.self, c.point)); };
+    return c.depth > very_deep || (c.depth > deep && std::abs(approach()) < slow);
+  });
 }
 
 void Bodies::sort_by_order_key(std::vector<std::uint32_t>& numbers) const {

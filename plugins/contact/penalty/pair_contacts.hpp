@@ -174,6 +174,7 @@ class PairContacts {
   double parted_depth(double depth) const;
   void add_contacts(std::uint32_t robot, double mass, ContactSolver& solver);
   void take_forces(std::uint32_t robot, std::span<const SolverContact>& found);
+  double mean_over_of(std::uint32_t robot) const;
   void tell_depth(std::uint32_t robot, const Contact& contact, const PairPoint& point, const Computed& c);
   static bool is_solved(const Computed& c) {
     return c.patch != in_impact && c.patch != had_impact && !(c.solved.rebounds > 0);

@@ -26,6 +26,12 @@ bool is_known(const Robot& robot) {
   return robot.is_single_body && (robot.carried_mass || contact_algorithm_resolves(*robot.world, kinematic_world));
 }
 
+/// Whether the motion of the robot leaves all contacts to this algorithm: as motion.simplified, whose joints move as if
+/// the others were locked, so that a force on one link does not move another.
+bool is_decoupled(const Robot& robot) {
+  return !robot.is_single_body && contact_algorithm_resolves(*robot.world, kinematic_world);
+}
+
 }  // namespace
 
 /// Whether what the contact does hangs on what else its robots carry. Two robots of one body, alike in mass, that touch
@@ -118,7 +124,8 @@ void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
   Record& me = record(self);
   const Robot& robot = bodies_.robots[self];
   std::sort(me.touched.begin(), me.touched.end());
-  const double shared = me.shared = robot.is_single_body ? 1 : bodies_.apparent_masses[self].shared_by(me.touched);
+  const bool shares = !robot.is_single_body && !is_decoupled(robot);
+  const double shared = me.shared = !shares ? 1 : bodies_.apparent_masses[self].shared_by(me.touched);
   for (std::uint32_t i = 0; i < robot.body_count; ++i) {
     if (!robot.carried_mass && std::find(me.touched.begin(), me.touched.end(), i) == me.touched.end()) continue;
     Mobility mobility = me.mobilities[i];
@@ -141,13 +148,24 @@ void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
   }
 }
 
+/// s: over which is learnt how links move otherwise than they seem to. A base that legs carry is many times as heavy as
+/// a foot seems, and follows it later; the longer steps are, the less a foot bears that is not learnt.
+double PairContacts::mean_over_of(std::uint32_t self) const {
+  constexpr double least = 0.3, short_step = 1e-3;  // s
+  const Robot& robot = bodies_.robots[self];
+  const Twist& base = *bodies_.base_of(robot).twist;
+  const bool is_free = !base.linear.isZero(0) || !base.angular.isZero(0);
+  const double steps = context_.stiffness.h / short_step;
+  return is_decoupled(robot) && is_free ? least * std::max(1.0, steps * steps) : least;
+}
+
 /// What is kept of a contact. Bodies with joints, and those of engines, are not as heavy as they seem, and more than
 /// their weight acts on them: so contacts part faster than expected, or more slowly. What that is in the mean is known
 /// by then, so that it does not change how deep a contact is at rest.
 void PairContacts::recall(std::uint32_t self, std::size_t place, Computed& c, double approach,
                           const Contact& contact) const {
-  constexpr double mean_over = 0.3;  // s
   const Robot& robot = bodies_.robots[self];
+  const double mean_over = mean_over_of(self);
   const SolvedContact* const before = previous<SolvedContact>(*robot.solved, place, c.pair, contact.point);
   c.solved = before ? *before : SolvedContact{};
   SolvedContact& now = c.solved;

@@ -106,6 +106,76 @@ Outcome rover_on_a_plank(const std::string& motion) {
   return worst;
 }
 
+/// A trunk of 10 kg on four legs with light shanks, whose hips and knees servos hold bent.
+struct Quadruped : Trial {
+  static constexpr double thigh = 0.2, lean = 0.6, foot = 0.02;  // m, rad, m
+  static constexpr const char* legs[] = {"front_left", "front_right", "rear_left", "rear_right"};
+  const RobotView* robot = nullptr;
+
+  Quadruped(const std::string& motion, double rate) : Trial(motion, rate) {
+    add_ground(of_loads);
+    const RobotTree tree = test::tree_of([](RobotBuilder& b) {
+      b.base("trunk");
+      b.set(keys::inertial, solid_box(10, {0.4, 0.2, 0.1}));
+      for (int k = 0; k < 4; ++k) {
+        if (k < 3) b.fork();
+        add_leg(b, legs[k], {k < 2 ? 0.2 : -0.2, k % 2 == 0 ? 0.1 : -0.1, 0});
+        if (k < 3) b.end();
+      }
+      for (int k = 0; k < 3; ++k) b.end();
+    });
+    robot = &add("dog", tree, {{0, 0, 2 * thigh * std::cos(lean) + foot}, Quat::Identity()});
+    start({{"joints", "position"}, {"effort_limits", true}});
+  }
+  /// m: of the foot that is deepest in the ground.
+  double sunk() {
+    double deepest = 0;
+    for (const char* leg : legs) {
+      const Pose& shank = world().value("dog/" + std::string(leg) + "_shank", keys::pose);
+      deepest = std::max(deepest, foot - (shank * Vec3(0, 0, -thigh)).z());
+    }
+    return deepest;
+  }
+
+ private:
+  static void add_leg(RobotBuilder& b, const std::string& name, const Vec3& hip) {
+    const auto turned = [](double angle) { return Quat(Eigen::AngleAxisd(angle, Vec3::UnitY())); };
+    const auto rod = [](double mass) {
+      const double across = mass * thigh * thigh / 12;
+      return Inertia{.mass = mass, .com = {0, 0, -thigh / 2}, .ixx = across, .iyy = across, .izz = 1e-4 * mass};
+    };
+    b.translation(hip);
+    b.rotation(turned(lean));
+    b.revolute(name + "_hip", Vec3::UnitY(), {.effort = 60});
+    b.body(name + "_thigh");
+    b.set(keys::inertial, rod(0.6));
+    b.translation({0, 0, -thigh});
+    b.rotation(turned(-2 * lean));
+    b.revolute(name + "_knee", Vec3::UnitY(), {.effort = 60});
+    b.body(name + "_shank");
+    b.set(keys::inertial, rod(0.15));
+    Shape sphere = with(Shape::sphere(foot), of_loads);
+    sphere.origin.position = {0, 0, -thigh};
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&sphere, 1));
+  }
+};
+
+/// m: the deepest foot, in a second after it has come to rest.
+Outcome on_four_legs(const std::string& motion) {
+  Outcome worst;
+  for (const double rate : {1000.0, 250.0}) {
+    Quadruped dog(motion, rate);
+    dog.run_for(4);
+    for (int k = 0; k < 50; ++k) {
+      dog.run_for(0.02);
+      const double sunk = dog.sunk(), height = dog.pose(*dog.robot).position.z();
+      if (!(height > 0.2)) return {1, "it has fallen"};
+      if (sunk > worst.error) worst = {sunk, text(sunk) + " m at " + text(rate) + " Hz"};
+    }
+  }
+  return worst;
+}
+
 }  // namespace
 
 std::vector<Case> load_cases() {
@@ -117,6 +187,8 @@ std::vector<Case> load_cases() {
       {"a light box sinks no deeper into a heavy one", "m", needs, most, light_on_heavy},
       {"none of ten boxes in a stack sinks into another", "m", needs, most, ten_boxes},
       {"a rover stands on a plank on two bricks", "m", needs, most, rover_on_a_plank},
+      {"feet sink no deeper under a robot that stands on four legs", "m", needs | feature_position_targets, most,
+       on_four_legs},
   };
 }
 
