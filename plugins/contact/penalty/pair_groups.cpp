@@ -227,6 +227,7 @@ double PairContacts::parted_depth(double depth) const {
 void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& solver) {
   const double omega = context_.omega;
   const Record& me = record(self);
+  const law::FrictionLaw<double> friction(context_.stiffness, me.load);
   KnownContacts& known = known_[self];
   const Contact* const contacts = (*bodies_.robots[self].contacts).data();
   for (std::size_t i = 0; i < known.computed.size(); ++i) {
@@ -265,9 +266,16 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     s.push = stiffness * (c.is_exact ? parted_depth(depth) : depth);
     s.push = std::min(s.push, s.along * context_.correcting_speed);
     if (is_pressed) solver.hold(holds_own, holds_other);
-    const double mass_across = is_pressed ? apparent_mass_across(self, c) : carried;
-    s.across = mass_across / carried * held;
-    s.spring = mass_across * omega * omega * (displacement - contact.normal * contact.normal.dot(displacement));
+    const Vec3 tangential = displacement - contact.normal * contact.normal.dot(displacement);
+    if (holds_own && c.other_robot == no_robot && is_decoupled(bodies_.robots[self])) {
+      const double mass_across = apparent_mass_across(self, c);
+      s.across = mass_across * friction.held;
+      s.spring = mass_across * friction.spring * tangential;
+    } else {
+      const double mass_across = is_pressed ? apparent_mass_across(self, c) : carried;
+      s.across = mass_across / carried * held;
+      s.spring = mass_across * omega * omega * tangential;
+    }
     s.friction = contact.surface.friction;
     s.limit = s.friction * c.solved.load;
     s.push -= s.along * c.solved.more;
@@ -284,7 +292,7 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
 /// them: of one body, as they are; of bodies with joints, which answer to loads, as dampers.
 void PairContacts::add_supports(std::uint32_t self, double mass, ContactSolver& solver) const {
   const Robot& robot = bodies_.robots[self];
-  if (!robot.carried_mass) return;
+  if (!robot.carried_mass || contact_algorithm_resolves(*robot.world, kinematic_world)) return;
   constexpr double much = 10, leaves = 0.01;  // m/s
   const double stiffness = mass * context_.omega * context_.omega;
   const double held = 2 * mass * context_.omega + context_.stiffness.h * stiffness;
