@@ -32,7 +32,8 @@ std::vector<Case> all_cases() {
        {free_body_cases(), slope_cases(),     rolling_cases(),     impact_cases(),          load_cases(),
         grip_cases(),      joint_cases(),     mimic_joint_cases(), position_drive_cases(),  massless_arm_cases(),
         pendulum_cases(),  swing_cases(),     vehicle_cases(),     commanded_joint_cases(), obstacle_cases(),
-        mesh_cases(),      heightmap_cases(), tunnelling_cases(),  patch_cases(),           passivity_cases()})
+        mesh_cases(),      heightmap_cases(), tunnelling_cases(),  patch_cases(),           passivity_cases(),
+        limb_cases()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }

@@ -57,6 +57,7 @@ std::vector<Case> massless_arm_cases();
 std::vector<Case> position_drive_cases();
 std::vector<Case> pendulum_cases();
 std::vector<Case> swing_cases();
+std::vector<Case> limb_cases();
 std::vector<Case> vehicle_cases();
 std::vector<Case> commanded_joint_cases();
 std::vector<Case> obstacle_cases();
