@@ -156,8 +156,8 @@ TEST(Kick, SlowFromWhereverTheBallLiesBeforeTheFoot) {
         expect_a_kick({.imu = "mpu6050", .kicks = kicks, .ahead = ahead, .left = left}, 1.3);
 }
 
-TEST(Kick, SlowInOtherEngines) {
-  for (const char* motion : {"mujoco", "bullet", "ode"})
+TEST(Kick, SlowAtOtherMotions) {
+  for (const char* motion : {"mujoco", "bullet", "ode", "simplified"})
     for (const char* kicks : {"foot=1, speed=3, every=100", "foot=-1, speed=3, every=100"})
       expect_a_kick({.motion = motion, .imu = "mpu6050", .kicks = kicks}, motion == std::string("ode") ? 1.1 : 1.4);
 }
@@ -176,7 +176,7 @@ TEST(Kick, SlowTwentyInARowWithoutAFall) {
   for (const char* motion : {"articulated", "biped"})
     for (const char* imu : {"mti1", "mpu6050"})
       for (const char* foot : {"foot=1", "foot=-1", "alternate=1"}) expect_twenty(motion, imu, foot);
-  for (const char* motion : {"mujoco", "bullet"}) expect_twenty(motion, "mpu6050", "alternate=1");
+  for (const char* motion : {"mujoco", "bullet", "simplified"}) expect_twenty(motion, "mpu6050", "alternate=1");
 }
 
 /// One with OP2's lengths and masses, by these numbers alone.
