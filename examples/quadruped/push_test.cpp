@@ -45,7 +45,7 @@ TEST(Push, From8DirectionsIsBorneInEveryFullDynamics) {
 }
 
 TEST(Push, SlowFrom8DirectionsInBothHalvesOfTheStride) {
-  for (const std::string motion : {"articulated", "bullet", "ode", "mujoco"})
+  for (const std::string motion : {"articulated", "bullet", "ode", "mujoco", "simplified"})
     for (int direction = 0; direction < 8; ++direction)
       for (int part = 0; part < 2; ++part) pushes(motion, direction * 45 * degree, 1.55 + 0.1 * part, 60);
 }
