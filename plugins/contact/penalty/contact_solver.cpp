@@ -148,16 +148,29 @@ ContactSolver::Reaction ContactSolver::reaction_at(const SolverContact& c, const
   return {c.push - c.along * away, c.spring + c.across * (velocity - away * c.normal)};
 }
 
+/// Whether a contact does something else than what was taken for granted. `hold`: what it does across.
+bool ContactSolver::differs(const SolverContact& c, const Reaction& r, double hold) {
+  return ((r.load > 0) != c.pushes && std::abs(r.load) > c.along * slight) ||
+         (c.has_friction_in_it() && std::abs(hold - c.hold) * r.drag.norm() > precision * c.limit + c.across * slight);
+}
+
+/// Whether all contacts do at the solution of the linear system what it takes for granted, so that it is the minimum.
+bool ContactSolver::is_solution() const {
+  return std::all_of(contacts_.begin(), contacts_.end(), [this](const SolverContact& c) {
+    if (c.only_damps) return true;
+    const Reaction r = reaction_at(c, velocity_in(c, solution_));
+    return !differs(c, r, part_within(r.drag, c.limit));
+  });
+}
+
 /// What the contact does at the velocities so far. Returns whether that is something else than what was taken for
 /// granted.
 bool ContactSolver::revise(SolverContact& c) const {
   if (c.only_damps) return false;
-  const auto [load, drag] = reaction_at(c, velocity_in(c, velocities_));
-  const bool pushes = load > 0;
-  const double hold = part_within(drag, c.limit);
-  const bool changed = (pushes != c.pushes && std::abs(load) > c.along * slight) ||
-                       std::abs(hold - c.hold) * drag.norm() > precision * c.limit + c.across * slight;
-  c.pushes = pushes;
+  const Reaction r = reaction_at(c, velocity_in(c, velocities_));
+  const double load = r.load, hold = part_within(r.drag, c.limit);
+  const bool changed = differs(c, r, hold);
+  c.pushes = load > 0;
   c.hold = hold;
   c.load = std::max(load, 0.0);
   return changed;
@@ -182,6 +195,10 @@ double ContactSolver::slope_at(double part) const {
 /// Goes towards the solution of the linear system, about as far as potentials fall. Returns whether that is all the
 /// way.
 bool ContactSolver::approach_solution() {
+  if (is_solution()) {
+    velocities_.assign(solution_.begin(), solution_.end());
+    return true;
+  }
   constexpr double flat = 0.1;  // of the slope at the start: as good as the minimum
   double part = 1;
   const double most = -flat * slope_at(0);
@@ -219,7 +236,7 @@ bool ContactSolver::revise_limits(double part) {
   for (SolverContact& c : contacts_) {
     const double limit = c.friction * c.load;
     const Vec3 drag = reaction_at(c, velocity_in(c, velocities_)).drag;
-    const bool slides = c.hold < 1 || drag.norm() > limit;
+    const bool slides = c.has_friction_in_it() && (c.hold < 1 || drag.norm() > limit);
     const double most = std::max(limit, c.limit);
     changed = changed || (slides && std::abs(limit - c.limit) > near * most + c.across * slight);
     c.limit += part * (limit - c.limit);
@@ -235,7 +252,8 @@ void ContactSolver::find_force(SolverContact& c) const {
   if (c.only_damps) return;
   const Vec3 force = (c.impulse - c.yields * (velocity + c.touched)) / step_;
   c.load = std::max(c.normal.dot(force), 0.0);
-  const Vec3 across = force - along(force, c.normal);
+  const Vec3 across =
+      c.has_friction_in_it() ? Vec3(force - along(force, c.normal)) : Vec3(-reaction_at(c, velocity).drag);
   c.force = c.load * c.normal + part_within(across, c.friction * c.load) * across;
   c.hold = part_within(reaction_at(c, velocity).drag, c.friction * c.load);
 }

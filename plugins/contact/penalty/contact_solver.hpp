@@ -33,6 +33,8 @@ struct SolverContact {
   /// Friction moves them in this step. Else across the normal they go on as they do, as links that joints hold: see
   /// hold().
   bool moves_body = true, moves_other = true;
+  /// Its friction has a part in the solution.
+  bool has_friction_in_it() const { return moves_body || (other != none && moves_other); }
   double push = 0;               ///< N, along the normal: of the spring at the begin of the step
   double along = 0, across = 0;  ///< N s/m: K along the normal and across
   Vec3 spring = Vec3::Zero();    ///< N, across: of the friction spring at the begin of the step
@@ -81,6 +83,8 @@ class ContactSolver {
     Vec3 drag;
   };
   static Reaction reaction_at(const SolverContact& c, const Vec3& velocity);
+  static bool differs(const SolverContact& c, const Reaction& r, double hold);
+  bool is_solution() const;
   bool revise(SolverContact& c) const;
   void find_velocities(int& left);
   bool revise_limits(double part);
