@@ -87,7 +87,8 @@ double time_of_goal(const std::string& motion, const std::string& seed = "seed=1
 }
 
 TEST(SlowMatch, AForwardAloneScoresAtEachLevel) {
-  for (const char* motion : {"biped", "articulated", "simplified", "mujoco", "bullet"}) EXPECT_LT(time_of_goal(motion), 100);
+  for (const char* motion : {"biped", "articulated", "simplified", "mujoco", "bullet"})
+    EXPECT_LT(time_of_goal(motion), 100);
   EXPECT_LT(time_of_goal("articulated", "seed=2"), 100);
 }
 
