@@ -11,14 +11,15 @@ namespace muro::articulated {
 struct KernelContact {
   /// Point, normal, depth (m, world); friction, restitution, resistance to rolling and to spinning.
   const double* place = nullptr;
-  double* kept = nullptr;         ///< from its point on, as KeptContact
-  const double* other = nullptr;  ///< velocity of what it touches at the point, and its spin; null: it does not move
-  double shift[3] = {};           ///< m, world: from the point to where its friction acts, see pressure_cells.hpp
-  double rim[3] = {};             ///< m, in the frame of the body: see contact_geometry::ShapeExtent
+  double* kept = nullptr;           ///< from its point on, as KeptContact
+  const double* other = nullptr;    ///< velocity of what it touches at the point, and its spin; null: it does not move
+  const double* partner = nullptr;  ///< place of the other end, where it may be one of a line; else null
+  double shift[3] = {};  ///< m, world: of faces, from the point to where its friction acts (pressure_cells.hpp)
+  double rim[3] = {};    ///< m, in the frame of the body: see contact_geometry::ShapeExtent
   int body = 0;
   bool resists_turning = false;
   bool has_rim = false;
-  bool has_cell = false;  ///< it is one of several points of a line or face
+  bool has_cell = false;  ///< it is one of several points of a face
 };
 /// How many joints of a robot may follow others.
 inline constexpr int most_mimics = 32;

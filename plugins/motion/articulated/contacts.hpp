@@ -6,6 +6,7 @@
 
 #include "contact_travel.hpp"
 #include "contact_trial.hpp"
+#include "plugins/common/contact_geometry/pressure_cells.hpp"
 
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
@@ -212,15 +213,16 @@ class Contacts {
   void load_slot(const KernelContact* const (&of_robot)[count_of<S>], ContactSlot<S>& slot) {
     Places<S> place, kept;
     slot.resists_turning = 0;
-    bool moves = false, has_rims = false, has_cells = false;
+    bool moves = false, has_rims = false, has_cells = false, has_lines = false;
     for (int i = 0; i < count_of<S>; ++i) {
       const KernelContact& c = *of_robot[i];
       place.at[i] = c.place, slot.kept.at[i] = c.kept;
       kept.at[i] = c.kept ? c.kept : nothing_kept;
       slot.resists_turning |= unsigned(c.resists_turning) << i;
       moves |= c.other != nullptr, has_rims |= c.has_rim, has_cells |= c.has_cell;
+      has_lines |= c.partner != nullptr;
     }
-    slot.has_cells = has_cells;
+    slot.has_cells = has_cells || has_lines;
     const BodyStep<S>& body = work_.bodies[slot.body];
     const S zero(0);
     S at[9], before[11];
@@ -261,8 +263,10 @@ class Contacts {
     slot.velocity = body.v + cross(body.w, arm + travel.all);
     p.turn = {zero, zero, zero}, p.cell_speed = zero;
     slot.spins = false;
-    if (has_cells) {
-      const V3<S> shift = lane::load_vector(places_of(of_robot, [](auto& c) { return c.shift; }));
+    if (slot.has_cells) {
+      V3<S> shift{zero, zero, zero};
+      if (has_cells) shift = lane::load_vector(places_of(of_robot, [](auto& c) { return c.shift; }));
+      if (has_lines) shift += shift_in_line(of_robot, point, {at[3], at[4], at[5]});
       p.turn = cross(p.normal, transposed_times(body.axes, shift));
       const V3<S> more = dot(body.w - p.spin, p.normal) * p.turn;
       slot.velocity += more;
@@ -297,6 +301,15 @@ class Contacts {
     p.slip += turning - dot(turning, p.normal) * p.normal;
   }
 
+  /// m, world: from the points to the middles of their cells, where they are ends of lines.
+  MURO_INLINE static V3<S> shift_in_line(const KernelContact* const (&of_robot)[count_of<S>], const V3<S>& point,
+                                         const V3<S>& normal) {
+    S other[6];
+    load_rows(places_of(of_robot, [](auto& c) { return c.partner ? c.partner : c.place; }), 0, other);
+    const MaskOf<S> is_line = dot(normal, V3<S>{other[3], other[4], other[5]}) > S(contact_geometry::same_direction);
+    const V3<S> shift = contact_geometry::shift_in_line(point, V3<S>{other[0], other[1], other[2]});
+    return select(is_line, shift, {S(0), S(0), S(0)});
+  }
   /// Of each robot what `get` finds in its contact.
   template <class Get>
   MURO_INLINE static Places<S> places_of(const KernelContact* const (&of_robot)[count_of<S>], const Get& get) {

@@ -162,21 +162,32 @@ void RobotContacts::keep_what_lasts(const TouchedBodies& bodies) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].kept = (*kept_)[i].point.data();
 }
 
+/// Two contacts of two shapes may be the ends of a line, which the kernel finds out; of more it is found here.
 void RobotContacts::find_joins() {
   for (std::size_t i = 1; i < contacts_.size(); ++i) {
     const Contact &before = contact(i - 1), &c = contact(i);
     places_[i].joins = c.self == before.self && c.other == before.other && c.self_shape == before.self_shape &&
                        c.other_shape == before.other_shape;
   }
+  has_faces_ = false;
+  const auto joins = [this](std::size_t, std::size_t i) { return places_[i].joins; };
+  contact_geometry::each_patch(contacts_.size(), joins, [this](std::size_t begin, std::size_t end) {
+    has_faces_ = has_faces_ || end > begin + 2;
+    if (end != begin + 2) return;
+    contacts_[begin].partner = contacts_[begin + 1].place;
+    contacts_[begin + 1].partner = contacts_[begin].place;
+  });
 }
 
 void RobotContacts::find_cells() {
+  if (!has_faces_) return;
   const auto belongs = [&](std::size_t begin, std::size_t i) {
     const double *const a = contacts_[begin].place + 3, *const b = contacts_[i].place + 3;
     return places_[i].joins && a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > contact_geometry::same_direction;
   };
   contact_geometry::each_patch(contacts_.size(), belongs, [&](std::size_t begin, std::size_t end) {
     KernelContact* const first = contacts_.data() + begin;
+    if (first->partner) return;
     first->has_cell = end > begin + 1;
     if (end == begin + 1) {
       std::fill_n(first->shift, 3, 0.0);

@@ -89,6 +89,7 @@ class RobotContacts {
   std::uint64_t revision_ = no_revision;  ///< of the list, when contacts were found
   std::size_t length_ = 0;                ///< the same
   bool touches_robots_ = false;
+  bool has_faces_ = false;  ///< more than two contacts are of the same two shapes
   std::vector<KernelContact> contacts_;
   std::vector<Place> places_;  ///< of contacts
   std::vector<Twist> others_;  ///< of contacts: velocity of what they touch, at the point
