@@ -142,7 +142,9 @@ MURO_INLINE void take_along(const V3<S>& r, const V3<S>& t, S x, Inertia<S>& to)
 template <class S>
 MURO_INLINE void add_turn(const ContactPoint<S>& p, const ContactStep<S>& c, Inertia<S>& to) {
   const V3<S>& n = p.normal;
-  const V3<S> held = c.across * (p.turn - dot(c.slide, p.turn) * c.slide), g = cross(p.arm, held);
+  V3<S> turn = p.turn;
+  if (c.slides) turn = turn - dot(c.slide, turn) * c.slide;
+  const V3<S> held = c.across * turn, g = cross(p.arm, held);
   const S x = dot(p.turn, held);
   const V3<S> m = g + (S(0.5) * x) * n;  // n m' + m n'
   to.A.xx += S(2) * n.x * m.x, to.A.yy += S(2) * n.y * m.y, to.A.zz += S(2) * n.z * m.z;
