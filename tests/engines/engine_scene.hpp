@@ -34,14 +34,15 @@ struct World : test::Scene {
   World() {
     set_log([this](LogLevel, std::string_view text) { log += std::string(text) + "\n"; });
   }
-  /// Moves all robots so far by `motion`. Parameters that the motion does not have are left out.
-  void start(const std::string& motion, Parameters parameters = {}, double rate = 1000) {
+  /// Moves all robots so far by `motion`. Parameters that the motion does not have are left out. `of_contact`: those of
+  /// contact.penalty.
+  void start(const std::string& motion, Parameters parameters = {}, double rate = 1000, Parameters of_contact = {}) {
     const Description& d = *test::plugins().algorithm(motion).description;
     std::erase_if(parameters, [&](const auto& p) {
       return std::none_of(d.parameters.begin(), d.parameters.end(), [&](auto& k) { return k.name == p.first; });
     });
     use(motion, rate, all_robots(), std::move(parameters));
-    use_contacts();
+    use_contacts(std::move(of_contact));
     build();
   }
   void add_box(const char* name, const Vec3& centre, const Vec3& size, double friction = 0) {

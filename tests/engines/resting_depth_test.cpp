@@ -11,11 +11,8 @@ class RestingDepth : public ::testing::TestWithParam<std::string> {
 
   /// All robots so far, on contacts of `frequency` (Hz): they rest g / (2 pi frequency)^2 deep, 1 cm at 5 Hz.
   void start(double frequency, Parameters parameters = {}) {
-    const bool is_own = GetParam() == "motion.articulated";
-    if (is_own) parameters.emplace("frequency", frequency);
-    w.use(GetParam(), 1000, w.all_robots(), std::move(parameters));
-    w.use_contacts(is_own ? Parameters{} : Parameters{{"frequency", frequency}});
-    w.build();
+    parameters.emplace("frequency", frequency);
+    w.start(GetParam(), std::move(parameters), 1000, {{"frequency", frequency}});
   }
   int times_told() const {
     int count = 0;

@@ -45,12 +45,11 @@ std::vector<ObjectId> bodies_of_base(const RobotView& robot) {
 
 }  // namespace
 
-Obstacles obstacles_of(const Connector& c) {
-  Obstacles obstacles;
+void Surroundings::connect(const Connector& c) {
+  host = &c.host();
   for (std::uint32_t i = 0; i < c.object_count(); ++i)
     if (const ObjectId id{i}; !c.constant_array(id, keys::collision_shapes).empty())
       obstacles.emplace(i, Obstacle{std::string(c.object_name(id)), c.robot_of(id) < 0});
-  return obstacles;
 }
 
 std::string failure_of_numbers(std::string_view robot, const Pose& pose, const Twist& twist, const Wrench& external,
@@ -92,38 +91,47 @@ void RobotWatch::begin(const SumIn<Wrench>* external) {
   if (external && external->size() > (has_contact_law_ ? 1 : 0)) watch_.allow_pushes();
 }
 
-RobotWatch::Overlap RobotWatch::deepest_overlap(const Obstacles& obstacles) const {
+RobotWatch::Overlap RobotWatch::deepest_overlap(const Surroundings& surroundings) const {
   Overlap deepest;
   if (!contacts_) return deepest;
   for (const Contact& c : *contacts_) {
     // what is neither too deep nor told as a cause needs no name
     if (!(c.depth > deepest.depth) || (!begins_ && c.depth <= told_depth && watch_.allows_depth(c.depth))) continue;
-    const auto obstacle = obstacles.find(index_of(c.other));
-    if (obstacle != obstacles.end() && obstacle->second.is_scenery) deepest = {c.depth, &obstacle->second.name};
+    const auto obstacle = surroundings.obstacles.find(index_of(c.other));
+    if (obstacle != surroundings.obstacles.end() && obstacle->second.is_scenery)
+      deepest = {c.depth, &obstacle->second.name};
   }
   return deepest;
 }
 
 bool RobotWatch::is_fixed(ObjectId body) const { return std::find(fixed_.begin(), fixed_.end(), body) != fixed_.end(); }
 
-void RobotWatch::tell_depth(double time, const Obstacles& obstacles, Host& host, std::atomic<bool>& is_told) {
+void RobotWatch::look(const Step& step, const Pose& pose, const Twist& twist, Surroundings& surroundings) {
+  const std::string failure = problem(pose, twist, surroundings);
+  if (!failure.empty()) throw Error(failure);
+  tell_depth(step.seconds(), surroundings);
+}
+
+void RobotWatch::tell_depth(double time, Surroundings& surroundings) {
+  std::atomic<bool>& is_told = surroundings.depth_is_told;
   if (!contacts_ || is_told.load(std::memory_order_relaxed)) return;
   const Contact* deepest = nullptr;
   for (const Contact& c : *contacts_)
     if ((!deepest || c.depth > deepest->depth) && !is_fixed(c.self)) deepest = &c;
   if (!resting_depth_.sees(time, deepest ? deepest->depth : 0) || is_told.exchange(true)) return;
   const auto name_of = [&](ObjectId id) {
-    const auto found = obstacles.find(index_of(id));
-    return found == obstacles.end() ? quote(name_) : quote(found->second.name);
+    const auto found = surroundings.obstacles.find(index_of(id));
+    return found == surroundings.obstacles.end() ? quote(name_) : quote(found->second.name);
   };
-  host.log(LogLevel::warning, name_of(deepest->self) + " stands " + millimetres(deepest->depth) + " deep in " +
-                                  name_of(deepest->other) +
-                                  ": contacts are too soft for what they bear at this rate; try a higher rate or a "
-                                  "higher `frequency` of contacts, or another motion (told once)");
+  surroundings.host->log(LogLevel::warning,
+                         name_of(deepest->self) + " stands " + millimetres(deepest->depth) + " deep in " +
+                             name_of(deepest->other) +
+                             ": contacts are too soft for what they bear at this rate; try a higher rate or a "
+                             "higher `frequency` of contacts, or another motion (told once)");
 }
 
-std::string RobotWatch::problem(const Pose& pose, const Twist& twist, const Obstacles& obstacles) {
-  const Overlap overlap = deepest_overlap(obstacles);
+std::string RobotWatch::problem(const Pose& pose, const Twist& twist, const Surroundings& surroundings) {
+  const Overlap overlap = deepest_overlap(surroundings);
   if (begins_) {
     watch_.begin(pose.position, twist);
     watch_.begin_overlap(overlap.depth);

@@ -16,13 +16,19 @@
 
 namespace muro::watch {
 
-/// What robots can touch, by object.
-struct Obstacle {
-  std::string name;
-  bool is_scenery = false;
+/// What the watches over the robots of a motion share: what these can touch, by object, and what has been told.
+struct Surroundings {
+  struct Obstacle {
+    std::string name;
+    bool is_scenery = false;
+  };
+  std::map<std::uint32_t, Obstacle> obstacles;
+  Host* host = nullptr;
+  std::atomic<bool> depth_is_told = false;
+
+  /// [setup]
+  void connect(const Connector& c);
 };
-using Obstacles = std::map<std::uint32_t, Obstacle>;
-Obstacles obstacles_of(const Connector& c);
 
 /// Why a run ends in which the numbers of a robot are no longer those of bodies: its pose, twist or joints are not.
 /// `external`: the sum of the wrenches on it, `mass`: kg.
@@ -40,10 +46,8 @@ class RobotWatch {
   void connect_contacts(Connector& c);
   /// The run begins or goes on; `external`: what adds to the robot's wrench, null where nothing moves its base. [setup]
   void begin(const SumIn<Wrench>* external);
-  /// Why the run ends; empty while it goes on.
-  std::string problem(const Pose& pose, const Twist& twist, const Obstacles& obstacles);
-  /// Says that it stands too deep in something at `time` (s): of all robots that share `is_told` the first.
-  void tell_depth(double time, const Obstacles& obstacles, Host& host, std::atomic<bool>& is_told);
+  /// Throws Error, which says why the run ends. Says, once for all robots of the motion, that it stands too deep.
+  void look(const Step& step, const Pose& pose, const Twist& twist, Surroundings& surroundings);
 
  private:
   struct Joint {
@@ -56,12 +60,14 @@ class RobotWatch {
     const std::string* obstacle = nullptr;
   };
 
-  Overlap deepest_overlap(const Obstacles& obstacles) const;
+  Overlap deepest_overlap(const Surroundings& surroundings) const;
+  std::string problem(const Pose& pose, const Twist& twist, const Surroundings& surroundings);
+  void tell_depth(double time, Surroundings& surroundings);
   bool is_fixed(ObjectId body) const;
 
   Watch watch_;
   RestingDepth resting_depth_;
-  std::vector<ObjectId> fixed_;  ///< bodies that nothing moves, in rising order
+  std::vector<ObjectId> fixed_;  ///< bodies that nothing moves
   ObjectId base_;
   std::string name_;
   bool begins_ = true;

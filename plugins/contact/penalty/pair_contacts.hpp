@@ -167,7 +167,8 @@ class PairContacts {
   void solve_group(std::uint32_t number);
   void find_touched(std::uint32_t robot);
   void add_bodies(std::uint32_t robot, ContactSolver& solver);
-  void recall(std::uint32_t robot, std::size_t place, Computed& c, double approach, const Contact& contact) const;
+  void recall(std::uint32_t robot, std::size_t place, Computed& c, double approach, const Contact& contact,
+              double mean_over) const;
   void add_supports(std::uint32_t robot, double mass, ContactSolver& solver) const;
   bool has_joints(std::int64_t robot) const;
   double apparent_mass_across(std::uint32_t self, const Computed& c) const;

@@ -20,17 +20,16 @@ constexpr double rising = 0.3;
 /// What drives press is so many times the mass of a group at most.
 constexpr double most_pressed = 1000;
 
+/// Whether the motion of the robot leaves its contacts with scenery to this algorithm.
+bool is_resolved_here(const Robot& robot) { return contact_algorithm_resolves(*robot.world, kinematic_world); }
+
 /// Whether all that acts on the robot is known here, beside external wrenches: it is one body, and all its contacts are
 /// in its list.
-bool is_known(const Robot& robot) {
-  return robot.is_single_body && (robot.carried_mass || contact_algorithm_resolves(*robot.world, kinematic_world));
-}
+bool is_known(const Robot& robot) { return robot.is_single_body && (robot.carried_mass || is_resolved_here(robot)); }
 
-/// Whether the motion of the robot leaves all contacts to this algorithm: as motion.simplified, whose joints move as if
-/// the others were locked, so that a force on one link does not move another.
-bool is_decoupled(const Robot& robot) {
-  return !robot.is_single_body && contact_algorithm_resolves(*robot.world, kinematic_world);
-}
+/// Whether its joints move as if the others were locked, so that a force on one link does not move another, as at
+/// motion.simplified.
+bool is_decoupled(const Robot& robot) { return !robot.is_single_body && is_resolved_here(robot); }
 
 }  // namespace
 
@@ -124,8 +123,8 @@ void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
   Record& me = record(self);
   const Robot& robot = bodies_.robots[self];
   std::sort(me.touched.begin(), me.touched.end());
-  const bool shares = !robot.is_single_body && !is_decoupled(robot);
-  const double shared = me.shared = !shares ? 1 : bodies_.apparent_masses[self].shared_by(me.touched);
+  const bool is_apart = robot.is_single_body || is_decoupled(robot);
+  const double shared = me.shared = is_apart ? 1 : bodies_.apparent_masses[self].shared_by(me.touched);
   for (std::uint32_t i = 0; i < robot.body_count; ++i) {
     if (!robot.carried_mass && std::find(me.touched.begin(), me.touched.end(), i) == me.touched.end()) continue;
     Mobility mobility = me.mobilities[i];
@@ -162,10 +161,9 @@ double PairContacts::mean_over_of(std::uint32_t self) const {
 /// What is kept of a contact. Bodies with joints, and those of engines, are not as heavy as they seem, and more than
 /// their weight acts on them: so contacts part faster than expected, or more slowly. What that is in the mean is known
 /// by then, so that it does not change how deep a contact is at rest.
-void PairContacts::recall(std::uint32_t self, std::size_t place, Computed& c, double approach,
-                          const Contact& contact) const {
+void PairContacts::recall(std::uint32_t self, std::size_t place, Computed& c, double approach, const Contact& contact,
+                          double mean_over) const {
   const Robot& robot = bodies_.robots[self];
-  const double mean_over = mean_over_of(self);
   const SolvedContact* const before = previous<SolvedContact>(*robot.solved, place, c.pair, contact.point);
   c.solved = before ? *before : SolvedContact{};
   SolvedContact& now = c.solved;
@@ -187,13 +185,14 @@ void PairContacts::recall(std::uint32_t self, std::size_t place, Computed& c, do
 /// solved.
 void PairContacts::recall_contacts(std::uint32_t self) {
   KnownContacts& known = known_[self];
+  const double mean_over = mean_over_of(self);
   const Contact* const contacts = (*bodies_.robots[self].contacts).data();
   for (std::size_t i = 0; i < known.computed.size(); ++i) {
     Computed& c = known.computed[i];
     c.solved.rebounds = 0;
     if (!is_solved(c)) continue;
     PairPoint& point = known.points[i];
-    recall(self, i, c, point.approach, contacts[c.place]);
+    recall(self, i, c, point.approach, contacts[c.place], mean_over);
     if (is_solved(c)) continue;
     kernels_.push(&point, 1, context_.stiffness, context_.elapsed);
     c.solved.load = 0;
@@ -228,6 +227,7 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
   const double omega = context_.omega;
   const Record& me = record(self);
   const law::FrictionLaw<double> friction(context_.stiffness, me.load);
+  const bool is_own_decoupled = is_decoupled(bodies_.robots[self]);
   KnownContacts& known = known_[self];
   const Contact* const contacts = (*bodies_.robots[self].contacts).data();
   for (std::size_t i = 0; i < known.computed.size(); ++i) {
@@ -267,7 +267,7 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     s.push = std::min(s.push, s.along * context_.correcting_speed);
     if (is_pressed) solver.hold(holds_own, holds_other);
     const Vec3 tangential = displacement - contact.normal * contact.normal.dot(displacement);
-    if (holds_own && c.other_robot == no_robot && is_decoupled(bodies_.robots[self])) {
+    if (is_own_decoupled && c.other_robot == no_robot) {
       const double mass_across = apparent_mass_across(self, c);
       s.across = mass_across * friction.held;
       s.spring = mass_across * friction.spring * tangential;
@@ -292,7 +292,7 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
 /// them: of one body, as they are; of bodies with joints, which answer to loads, as dampers.
 void PairContacts::add_supports(std::uint32_t self, double mass, ContactSolver& solver) const {
   const Robot& robot = bodies_.robots[self];
-  if (!robot.carried_mass || contact_algorithm_resolves(*robot.world, kinematic_world)) return;
+  if (!robot.carried_mass || is_resolved_here(robot)) return;
   constexpr double much = 10, leaves = 0.01;  // m/s
   const double stiffness = mass * context_.omega * context_.omega;
   const double held = 2 * mass * context_.omega + context_.stiffness.h * stiffness;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Multi-body dynamics by the articulated-body algorithm, robots of one structure in the lanes of vector registers.
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <deque>
 #include <memory>
@@ -50,8 +49,7 @@ class Articulated final : public Algorithm {
     bodies_.connect(c);
     for (const Item& item : c.items()) connect_robot(c, item);
     report(c);
-    obstacles_ = watch::obstacles_of(c);
-    host_ = &c.host();
+    surroundings_.connect(c);
   }
 
   void connect_by_name(Connector& c) override {
@@ -162,10 +160,7 @@ class Articulated final : public Algorithm {
   void look_at(const Step& step, Range range) {
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       const Served& s = served_[i];
-      if (!s.robot) continue;
-      const std::string problem = s.watch->problem(s.robot->pose(), s.robot->twist(), obstacles_);
-      if (!problem.empty()) throw Error(problem);
-      s.watch->tell_depth(step.seconds(), obstacles_, *host_, depth_is_told_);
+      if (s.robot) s.watch->look(step, s.robot->pose(), s.robot->twist(), surroundings_);
     }
   }
 
@@ -213,9 +208,7 @@ class Articulated final : public Algorithm {
   std::deque<multibody::KinematicRobot> kinematic_robots_;
   std::deque<watch::RobotWatch> watches_;
   std::vector<Served> served_;  ///< one an item
-  watch::Obstacles obstacles_;
-  std::atomic<bool> depth_is_told_ = false;
-  Host* host_ = nullptr;
+  watch::Surroundings surroundings_;
 };
 
 /// What the user should know of the robots.

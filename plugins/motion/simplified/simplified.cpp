@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The simplified dynamics (MuRoSimF, Section 3.2): one body whose centre of mass and inertia follow the joints.
 #include <array>
-#include <atomic>
 #include <bit>
 #include <deque>
 #include <functional>
@@ -61,8 +60,7 @@ class Simplified final : public Algorithm {
       modes_[i] = std::move(modes);
       connect_robot(c, i);
     }
-    obstacles_ = watch::obstacles_of(c);
-    host_ = &c.host();
+    surroundings_.connect(c);
     for (watch::RobotWatch& watch : watches_) watch.connect_contacts(c);
     for (ForceDrivenJoints& joints : force_driven_) joints.connect_by_name(c);
     for (std::uint32_t i = 0; i < robots_.size(); ++i)
@@ -266,9 +264,7 @@ class Simplified final : public Algorithm {
   void look_at(const Step& step, Range range) {
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       const RobotState& s = layers_[0][i];
-      const std::string problem = watches_[i].problem(pose_of(s), twist_of(s), obstacles_);
-      if (!problem.empty()) throw Error(problem);
-      watches_[i].tell_depth(step.seconds(), obstacles_, *host_, depth_is_told_);
+      watches_[i].look(step, pose_of(s), twist_of(s), surroundings_);
     }
   }
   static Pose pose_of(const RobotState& s) { return {Vec3(s.pose[0], s.pose[1], s.pose[2]), Quat(s.pose + 3)}; }
@@ -343,9 +339,7 @@ class Simplified final : public Algorithm {
   std::array<std::vector<RobotState>, 3> layers_;  ///< by group of joints; one per robot. The first has the base, too
   std::vector<Robot> robots_;                      ///< the rest of them
   std::deque<watch::RobotWatch> watches_;          ///< likewise
-  watch::Obstacles obstacles_;
-  std::atomic<bool> depth_is_told_ = false;
-  Host* host_ = nullptr;
+  watch::Surroundings surroundings_;
   std::vector<contact_geometry::ImpactInput> impacts_;  ///< one per robot
   std::vector<AppliedWrenches> applied_wrenches_;       ///< likewise
   std::vector<const double*> other_contributions_;      ///< contributions to wrenches, all but the first of each robot
