@@ -17,9 +17,12 @@ struct KernelContact {
   double shift[3] = {};  ///< m, world: of faces, from the point to where its friction acts (pressure_cells.hpp)
   double rim[3] = {};    ///< m, in the frame of the body: see contact_geometry::ShapeExtent
   int body = 0;
-  bool resists_turning = false;
-  bool has_rim = false;
-  bool has_cell = false;  ///< it is one of several points of a face
+  unsigned traits = 0;
+  /// Of traits: `is_moved`, it has `other`; `may_be_line`, it has `partner`; `has_cell`, it is one of several points of
+  /// a face.
+  enum : unsigned { resists_turning = 1, has_rim = 2, has_cell = 4, is_moved = 8, may_be_line = 16 };
+
+  void set(unsigned trait, bool on) { traits = on ? traits | trait : traits & ~trait; }
 };
 /// How many joints of a robot may follow others.
 inline constexpr int most_mimics = 32;

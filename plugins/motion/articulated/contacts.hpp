@@ -15,8 +15,10 @@ using contact_geometry::load_mean_over, contact_geometry::standard_gravity;
 using lane::any, lane::as_read, lane::count_of, lane::load_rows, lane::Places;
 
 /// What robots have that do not touch: far from everything, at rest.
-inline constexpr double no_contact[11] = {0, 0, 0, 0, 0, 1, -1}, nothing_kept[kept_numbers] = {}, at_rest[6] = {};
-inline constexpr KernelContact no_kernel_contact{.place = no_contact};
+inline constexpr double no_contact[11] = {0, 0, 0, 0, 0, 1, -1}, at_rest[6] = {};
+/// Read alone: no lane that has none stores what it keeps.
+inline double nothing_kept[kept_numbers] = {};
+inline constexpr KernelContact no_kernel_contact{.place = no_contact, .kept = nothing_kept};
 
 template <class S>
 class Contacts {
@@ -65,7 +67,7 @@ class Contacts {
   /// What contacts and wrenches add to their bodies.
   void add_terms() {
     for (int k = 0; k < batch_.structure.count; ++k)
-      if (work_.acts_on[k]) work_.external[k] = wrench_on(k);
+      if (work_.acts_on[k]) set_wrench(k, work_.external[k]);
     for (int i = 0; i < work_.contact_count; ++i) {
       ContactSlot<S>& slot = work_.contacts[i];
       Inertia<S>& to = work_.external[slot.body];
@@ -166,15 +168,15 @@ class Contacts {
     for (int i = 0; i < count_of<S>; ++i) at.at[i] = wrenches_.at[i] ? wrenches_.at[i] + 6 * body : at_rest;
     return lane::load_twist(at);
   }
-  Inertia<S> wrench_on(int body) const {
-    Inertia<S> o;
-    S* const numbers = &o.A.xx;
+  /// Of what acts beside contacts.
+  MURO_INLINE void set_wrench(int body, Inertia<S>& to) const {
+    S* const numbers = &to.A.xx;
+#pragma GCC unroll 27
     for (int i = 0; i < Inertia<S>::numbers; ++i) numbers[i] = S(0);
-    if (!has_wrenches_) return o;
+    if (!has_wrenches_) return;
     const auto [force, torque] = wrench_at(body);
-    o.f = -transposed_times(work_.bodies[body].axes, force);
-    o.n = -transposed_times(work_.bodies[body].axes, torque);
-    return o;
+    to.f = -transposed_times(work_.bodies[body].axes, force);
+    to.n = -transposed_times(work_.bodies[body].axes, torque);
   }
 
   /// The next contacts of all robots that are on the body with the lowest number make up a slot.
@@ -212,16 +214,18 @@ class Contacts {
 
   void load_slot(const KernelContact* const (&of_robot)[count_of<S>], ContactSlot<S>& slot) {
     Places<S> place, kept;
-    slot.resists_turning = 0;
-    bool moves = false, has_rims = false, has_cells = false, has_lines = false;
+    unsigned traits = 0;
     for (int i = 0; i < count_of<S>; ++i) {
       const KernelContact& c = *of_robot[i];
-      place.at[i] = c.place, slot.kept.at[i] = c.kept;
-      kept.at[i] = c.kept ? c.kept : nothing_kept;
-      slot.resists_turning |= unsigned(c.resists_turning) << i;
-      moves |= c.other != nullptr, has_rims |= c.has_rim, has_cells |= c.has_cell;
-      has_lines |= c.partner != nullptr;
+      place.at[i] = c.place, slot.kept.at[i] = c.kept, kept.at[i] = c.kept;
+      traits |= c.traits;
     }
+    slot.resists_turning = 0;
+    if (traits & KernelContact::resists_turning)
+      for (int i = 0; i < count_of<S>; ++i)
+        slot.resists_turning |= (of_robot[i]->traits & KernelContact::resists_turning ? 1u : 0u) << i;
+    const bool has_rims = traits & KernelContact::has_rim, has_cells = traits & KernelContact::has_cell,
+               has_lines = traits & KernelContact::may_be_line;
     slot.has_cells = has_cells || has_lines;
     const BodyStep<S>& body = work_.bodies[slot.body];
     const S zero(0);
@@ -244,7 +248,7 @@ class Contacts {
     p.arm = arm + travel.half;
     p.depth = at[6];
     p.velocity = p.spin = {zero, zero, zero};
-    if (moves) {
+    if (traits & KernelContact::is_moved) {
       const auto velocity = places_of(of_robot, [](auto& c) { return c.other ? c.other : at_rest; });
       const lane::TwistOf<S> other = lane::load_twist(velocity);
       p.velocity = transposed_times(body.axes, other.linear);
@@ -330,7 +334,8 @@ class Contacts {
     knows_pushes_ = has_wrenches_ && batch_.structure.count == 1 && !batch_.structure.fixed;
     if (!knows_pushes_) return;
     const V3<S> zero{S(0), S(0), S(0)};
-    const Inertia<S> wrench = wrench_on(0);
+    Inertia<S> wrench;
+    set_wrench(0, wrench);
     solve(own_inertia(masses, 0, zero, zero), -wrench.n, -wrench.f, pushed_alpha_, pushed_a_);
   }
 

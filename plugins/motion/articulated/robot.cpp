@@ -259,8 +259,16 @@ void Robot::prepare(double dt) {
   fetch_touching_links();
 }
 
-/// From memory, while the kernel computes: what export_contacts() will need.
+/// From memory, early: what the kernel and export_contacts() will need.
 void Robot::fetch_touching_links() const {
+  constexpr std::size_t line = 64 / sizeof(double);
+  for (const KernelContact& contact : contacts_.contacts()) {
+    __builtin_prefetch(contact.place);
+    __builtin_prefetch(contact.place + line);
+    __builtin_prefetch(contact.kept, 1);
+    __builtin_prefetch(contact.kept + line, 1);
+  }
+  for (std::size_t i = 0; i < 6 * contact_count(); i += line) __builtin_prefetch(contact_wrenches_.data() + i, 1);
   for (const std::uint32_t i : touching_links_) {
     __builtin_prefetch(links_[i].contact.get(), 1);
     __builtin_prefetch(links_[i].pose.get());

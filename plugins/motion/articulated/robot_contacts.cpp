@@ -113,8 +113,9 @@ void RobotContacts::find(const TouchedBodies& bodies) {
     contact.body = link->body;
     const Vec3 rim = link->orientation * bodies[c.self].shapes[c.self_shape].rim;
     std::copy_n(rim.data(), 3, contact.rim);
-    contact.has_rim = !rim.isZero(0);
-    contact.resists_turning = c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0;
+    contact.set(KernelContact::has_rim, !rim.isZero(0));
+    contact.set(KernelContact::resists_turning,
+                c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0);
     places_.push_back({i, link->loaded_link,
                        contact_geometry::is_of_disc(bodies[c.self].shapes[c.self_shape], other.shapes[c.other_shape]),
                        false});
@@ -174,8 +175,10 @@ void RobotContacts::find_joins() {
   contact_geometry::each_patch(contacts_.size(), joins, [this](std::size_t begin, std::size_t end) {
     has_faces_ = has_faces_ || end > begin + 2;
     if (end != begin + 2) return;
-    contacts_[begin].partner = contacts_[begin + 1].place;
-    contacts_[begin + 1].partner = contacts_[begin].place;
+    for (std::size_t i = begin; i < end; ++i) {
+      contacts_[i].partner = contacts_[begin + end - 1 - i].place;
+      contacts_[i].set(KernelContact::may_be_line, true);
+    }
   });
 }
 
@@ -188,7 +191,7 @@ void RobotContacts::find_cells() {
   contact_geometry::each_patch(contacts_.size(), belongs, [&](std::size_t begin, std::size_t end) {
     KernelContact* const first = contacts_.data() + begin;
     if (first->partner) return;
-    first->has_cell = end > begin + 1;
+    first->set(KernelContact::has_cell, end > begin + 1);
     if (end == begin + 1) {
       std::fill_n(first->shift, 3, 0.0);
       return;
@@ -197,7 +200,7 @@ void RobotContacts::find_cells() {
         end - begin, places_[begin].is_of_disc, [&](std::size_t i) { return first[i].place; },
         [&](std::size_t i, const Vec3& cell) {
           for (int n = 0; n < 3; ++n) first[i].shift[n] = cell[n];
-          first[i].has_cell = true;
+          first[i].set(KernelContact::has_cell, true);
         });
   });
 }
@@ -208,6 +211,7 @@ void RobotContacts::look_at_others(const TouchedBodies& bodies) {
     const Contact& c = (*list_)[places_[i].in_list];
     const TouchedBodies::Touched& other = bodies[c.other];
     contacts_[i].other = nullptr;
+    contacts_[i].set(KernelContact::is_moved, bool(other.pose));
     if (!other.pose) continue;
     others_[i] = {other.twist->at(c.point - other.pose->position), other.twist->angular};
     contacts_[i].other = lane::numbers(&others_[i]);
