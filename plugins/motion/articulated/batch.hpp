@@ -7,6 +7,11 @@
 
 namespace muro::articulated {
 
+/// Of a contact, what few steps need.
+struct ContactExtent {
+  double rim[3] = {};    ///< m, in the frame of the body: see contact_geometry::ShapeExtent
+  double shift[3] = {};  ///< m, world: of faces, from the point to where its friction acts (pressure_cells.hpp)
+};
 /// A contact that a step resolves. Numbers as they lie in properties.
 struct KernelContact {
   /// Point, normal, depth (m, world); friction, restitution, resistance to rolling and to spinning.
@@ -14,8 +19,7 @@ struct KernelContact {
   double* kept = nullptr;           ///< from its point on, as KeptContact
   const double* other = nullptr;    ///< velocity of what it touches at the point, and its spin; null: it does not move
   const double* partner = nullptr;  ///< place of the other end, where it may be one of a line; else null
-  double shift[3] = {};  ///< m, world: of faces, from the point to where its friction acts (pressure_cells.hpp)
-  double rim[3] = {};    ///< m, in the frame of the body: see contact_geometry::ShapeExtent
+  const ContactExtent* extent = nullptr;
   int body = 0;
   unsigned traits = 0;
   /// Of traits: `is_moved`, it has `other`; `may_be_line`, it has `partner`; `has_cell`, it is one of several points of

@@ -18,12 +18,13 @@ using lane::any, lane::as_read, lane::count_of, lane::load_rows, lane::Places;
 inline constexpr double no_contact[11] = {0, 0, 0, 0, 0, 1, -1}, at_rest[6] = {};
 /// Read alone: no lane that has none stores what it keeps.
 inline double nothing_kept[kept_numbers] = {};
-inline constexpr KernelContact no_kernel_contact{.place = no_contact, .kept = nothing_kept};
+inline constexpr ContactExtent no_extent;
+inline constexpr KernelContact no_kernel_contact{.place = no_contact, .kept = nothing_kept, .extent = &no_extent};
 
 template <class S>
 class Contacts {
  public:
-  /// Finds which contacts go together. Bodies have been placed.
+  /// Finds which contacts go together, and what they and wrenches add to their bodies. Bodies have been placed.
   Contacts(const Batch& batch, const RobotState* robots, int count, const Masses<S>& masses, Work<S>& work)
       : batch_(batch), work_(work), gravity_(splat<S>(batch.gravity)) {
     for (int k = 0; k < batch.structure.count; ++k) work.acts_on[k] = nullptr;
@@ -64,19 +65,11 @@ class Contacts {
     return select(sum > zero, weighted / max(sum, S(1e-300)), zero);
   }
 
-  /// What contacts and wrenches add to their bodies.
+  /// What contacts and wrenches add to their bodies, after settle() has changed what is tried.
   void add_terms() {
     for (int k = 0; k < batch_.structure.count; ++k)
       if (work_.acts_on[k]) set_wrench(k, work_.external[k]);
-    for (int i = 0; i < work_.contact_count; ++i) {
-      ContactSlot<S>& slot = work_.contacts[i];
-      Inertia<S>& to = work_.external[slot.body];
-      slot.step = touch(slot.point, law_of(slot), slot.velocity, work_.drifts[slot.body], slot.spins, batch_.dt);
-      lanes::add_terms(slot.point, slot.step, to);
-      if (slot.has_cells) add_turn(slot.point, slot.step, to);
-      if (slot.resists_turning != 0)
-        resist(slot.point, slot.turning, law_of(slot), work_.bodies[slot.body].w, batch_.dt, slot.step, to);
-    }
+    for (int i = 0; i < work_.contact_count; ++i) add_terms(work_.contacts[i]);
   }
 
   /// Whether something is hit.
@@ -139,6 +132,14 @@ class Contacts {
     law_of_more_.most_more = S(standard_gravity) * law_.mass * (more - S(1));
     return law_of_more_;
   }
+  MURO_INLINE void add_terms(ContactSlot<S>& slot) {
+    Inertia<S>& to = work_.external[slot.body];
+    slot.step = touch(slot.point, law_of(slot), slot.velocity, work_.drifts[slot.body], slot.spins, batch_.dt);
+    lanes::add_terms(slot.point, slot.step, to);
+    if (slot.has_cells) add_turn(slot.point, slot.step, to);
+    if (slot.resists_turning != 0)
+      resist(slot.point, slot.turning, law_of(slot), work_.bodies[slot.body].w, batch_.dt, slot.step, to);
+  }
   MURO_INLINE static void set(S& value, int i, double x) {
     if constexpr (count_of<S> == 1)
       value = x;
@@ -158,6 +159,7 @@ class Contacts {
     has_wrenches_ = true;
     for (int k = 0; k < batch_.structure.count; ++k) {
       work_.acts_on[k] = work_.external + k;
+      set_wrench(k, work_.external[k]);
       const auto [force, torque] = wrench_at(k);
       force_ += force;
       torque_ += torque + cross(work_.bodies[k].origin - work_.bodies[0].origin, force);
@@ -181,36 +183,43 @@ class Contacts {
 
   /// The next contacts of all robots that are on the body with the lowest number make up a slot.
   void load_contacts(const RobotState* robots, int count) {
-    const KernelContact* next[count_of<S>];
+    const KernelContact *next[count_of<S>], *end[count_of<S>];
+    double* wrench[count_of<S>];
     int body_of_next[count_of<S>];
     const int none = batch_.structure.count;
-    const auto look = [&](int i) { body_of_next[i] = next[i] == end_of(robots[i]) ? none : next[i]->body; };
-    for (int i = 0; i < count; ++i) next[i] = robots[i].contacts, look(i);
+    for (int i = 0; i < count_of<S>; ++i) {
+      next[i] = end[i] = nullptr, wrench[i] = nullptr;
+      if (i < count) next[i] = robots[i].contacts, end[i] = next[i] + robots[i].contact_count;
+      if (i < count) wrench[i] = robots[i].contact_wrenches;
+      body_of_next[i] = next[i] == end[i] ? none : next[i]->body;
+    }
     for (work_.contact_count = 0;;) {
       int body = none;
-      for (int i = 0; i < count; ++i) body = std::min(body, body_of_next[i]);
+      for (int i = 0; i < count_of<S>; ++i) body = std::min(body, body_of_next[i]);
       if (body == none) return;
       const bool is_first = work_.contact_count == 0 || work_.contacts[work_.contact_count - 1].body != body;
       ContactSlot<S>& slot = work_.contacts[work_.contact_count++];
       slot.body = body, slot.which = 0;
       const KernelContact* of_robot[count_of<S>];
       for (int i = 0; i < count_of<S>; ++i) {
-        of_robot[i] = &no_kernel_contact;
-        if (i >= count || body_of_next[i] != body) continue;
-        slot.wrench.at[i] = robots[i].contact_wrenches + 6 * (next[i] - robots[i].contacts);
-        of_robot[i] = next[i]++;
-        slot.which |= 1u << i;
-        look(i);
+        const bool has_one = body_of_next[i] == body;
+        of_robot[i] = has_one ? next[i] : &no_kernel_contact;
+        slot.wrench.at[i] = wrench[i];
+        slot.which |= unsigned(has_one) << i;
+        if (!has_one) continue;
+        wrench[i] += 6;
+        body_of_next[i] = ++next[i] == end[i] ? none : next[i]->body;
       }
       if (is_first) {
         const BodyStep<S>& b = work_.bodies[body];
         work_.drifts[body] = cross(b.w, b.v) + transposed_times(b.axes, gravity_);
         work_.acts_on[body] = work_.external + body;
+        set_wrench(body, work_.external[body]);
       }
       load_slot(of_robot, slot);
+      add_terms(slot);
     }
   }
-  static const KernelContact* end_of(const RobotState& robot) { return robot.contacts + robot.contact_count; }
 
   void load_slot(const KernelContact* const (&of_robot)[count_of<S>], ContactSlot<S>& slot) {
     Places<S> place, kept;
@@ -243,7 +252,7 @@ class Contacts {
     const MaskOf<S> is_known = (load < zero) | (load > zero);
     slot.way = select(is_known, point - V3<S>{before[0], before[1], before[2]}, {zero, zero, zero});
     lane::store_vector(slot.kept, 0, point, slot.which);
-    const auto rims = [&] { return lane::load_vector(places_of(of_robot, [](auto& c) { return c.rim; })); };
+    const auto rims = [&] { return lane::load_vector(places_of(of_robot, [](auto& c) { return c.extent->rim; })); };
     const Travel<S> travel = travel_of(slot.way, last, is_known, p.normal, arm, body, has_rims, rims, batch_.dt);
     p.arm = arm + travel.half;
     p.depth = at[6];
@@ -269,7 +278,7 @@ class Contacts {
     slot.spins = false;
     if (slot.has_cells) {
       V3<S> shift{zero, zero, zero};
-      if (has_cells) shift = lane::load_vector(places_of(of_robot, [](auto& c) { return c.shift; }));
+      if (has_cells) shift = lane::load_vector(places_of(of_robot, [](auto& c) { return c.extent->shift; }));
       if (has_lines) shift += shift_in_line(of_robot, point, {at[3], at[4], at[5]});
       p.turn = cross(p.normal, transposed_times(body.axes, shift));
       const V3<S> more = dot(body.w - p.spin, p.normal) * p.turn;

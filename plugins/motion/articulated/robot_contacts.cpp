@@ -67,7 +67,7 @@ void RobotContacts::start() {
   if (!list_) return;
   constexpr std::size_t of_a_link = 8;
   const std::size_t most = of_a_link * link_places_.size();
-  contacts_.reserve(most), places_.reserve(most), others_.reserve(most), before_.reserve(most);
+  contacts_.reserve(most), extents_.reserve(most), places_.reserve(most), others_.reserve(most), before_.reserve(most);
   if (!(*kept_).empty()) return;
   for (std::size_t i = 0; i < most; ++i) kept_.push_back({});
   kept_.clear();
@@ -97,8 +97,7 @@ void RobotContacts::look_up(const TouchedBodies& bodies) {
 
 void RobotContacts::find(const TouchedBodies& bodies) {
   const auto list = *list_;
-  contacts_.clear();
-  places_.clear();
+  contacts_.clear(), extents_.clear(), places_.clear();
   touches_robots_ = false;
   for (std::uint32_t i = 0; i < list.size(); ++i) {
     const Contact& c = list[i];
@@ -112,7 +111,7 @@ void RobotContacts::find(const TouchedBodies& bodies) {
     contact.place = c.point.data();
     contact.body = link->body;
     const Vec3 rim = link->orientation * bodies[c.self].shapes[c.self_shape].rim;
-    std::copy_n(rim.data(), 3, contact.rim);
+    std::copy_n(rim.data(), 3, extents_.emplace_back().rim);
     contact.set(KernelContact::has_rim, !rim.isZero(0));
     contact.set(KernelContact::resists_turning,
                 c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0);
@@ -134,6 +133,7 @@ void RobotContacts::sort_by_body() {
   for (std::size_t i = 1; i < contacts_.size(); ++i)
     for (std::size_t k = i; k > 0 && is_before(k, k - 1); --k) {
       std::swap(contacts_[k], contacts_[k - 1]);
+      std::swap(extents_[k], extents_[k - 1]);
       std::swap(places_[k], places_[k - 1]);
     }
 }
@@ -160,7 +160,8 @@ void RobotContacts::keep_what_lasts(const TouchedBodies& bodies) {
       kept_.push_back(kept);
     }
   }
-  for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].kept = (*kept_)[i].point.data();
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    contacts_[i].kept = (*kept_)[i].point.data(), contacts_[i].extent = &extents_[i];
 }
 
 /// Two contacts of two shapes may be the ends of a line, which the kernel finds out; of more it is found here.
@@ -190,16 +191,17 @@ void RobotContacts::find_cells() {
   };
   contact_geometry::each_patch(contacts_.size(), belongs, [&](std::size_t begin, std::size_t end) {
     KernelContact* const first = contacts_.data() + begin;
+    ContactExtent* const extents = extents_.data() + begin;
     if (first->partner) return;
     first->set(KernelContact::has_cell, end > begin + 1);
     if (end == begin + 1) {
-      std::fill_n(first->shift, 3, 0.0);
+      std::fill_n(extents->shift, 3, 0.0);
       return;
     }
     contact_geometry::find_cells(
         end - begin, places_[begin].is_of_disc, [&](std::size_t i) { return first[i].place; },
         [&](std::size_t i, const Vec3& cell) {
-          for (int n = 0; n < 3; ++n) first[i].shift[n] = cell[n];
+          for (int n = 0; n < 3; ++n) extents[i].shift[n] = cell[n];
           first[i].set(KernelContact::has_cell, true);
         });
   });

@@ -91,6 +91,7 @@ class RobotContacts {
   bool touches_robots_ = false;
   bool has_faces_ = false;  ///< more than two contacts are of the same two shapes
   std::vector<KernelContact> contacts_;
+  std::vector<ContactExtent> extents_;  ///< of contacts
   std::vector<Place> places_;  ///< of contacts
   std::vector<Twist> others_;  ///< of contacts: velocity of what they touch, at the point
   std::vector<KeptContact> before_;

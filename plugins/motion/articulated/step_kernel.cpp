@@ -200,8 +200,7 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   const V3<S> gravity = splat<S>(batch.gravity), zero{S(0), S(0), S(0)};
   const V3<S> fall = s.fixed ? transposed_times(bodies[0].axes, -gravity) : zero;
   for (int trial = 1;; ++trial) {
-    contacts.add_terms();
-    if (trial > 1) joints.set_terms();
+    if (trial > 1) contacts.add_terms(), joints.set_terms();
     accelerate_all(s, masses, work, fall, S(1 / dt));
     const bool loads = contacts.settle(search_of(trial));
     const bool others = trial < most_trials && joints.look_again(which);
