@@ -22,9 +22,9 @@ struct KernelContact {
   const ContactExtent* extent = nullptr;
   int body = 0;
   unsigned traits = 0;
-  /// Of traits: `is_moved`, it has `other`; `may_be_line`, it has `partner`; `has_cell`, it is one of several points of
-  /// a face.
-  enum : unsigned { resists_turning = 1, has_rim = 2, has_cell = 4, is_moved = 8, may_be_line = 16 };
+  /// Of traits: `is_moved`, it has `other`; `may_be_line`, it has `partner`, which is the next contact, or where it
+  /// `is_second` the one before; `has_cell`, it is one of several points of a face.
+  enum : unsigned { resists_turning = 1, has_rim = 2, has_cell = 4, is_moved = 8, may_be_line = 16, is_second = 32 };
 
   void set(unsigned trait, bool on) { traits = on ? traits | trait : traits & ~trait; }
 };
@@ -50,6 +50,7 @@ struct RobotState {
   double radius = 0;                        ///< m: of gyration
   const KernelContact* contacts = nullptr;  ///< by body, in rising order
   int contact_count = 0;
+  std::uint64_t contact_bodies = 0;    ///< their bodies, eight bits each; 0: there are none, or they need more
   const double* wrenches = nullptr;    ///< force and torque on each body at its origin, world axes; null: none
   double* contact_wrenches = nullptr;  ///< out: force and torque of each contact at its point
   /// Kept from step to step, of the base (world axes, linear and angular) and of each joint: how the last step changed

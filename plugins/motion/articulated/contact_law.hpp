@@ -70,7 +70,7 @@ struct ContactStep {
   V3<S> slide;      ///< unit, the direction t in which it slides; 0 where it sticks
   bool slides;      ///< some do
   S held;           ///< N s/m: of friction that sticks, by the slip at the end of the step
-  V3<S> torque;     ///< N m: against rolling and spinning, without acceleration
+  V3<S> torque;     ///< N m: against rolling and spinning, without acceleration; where some surface resists that
   S rolling, spinning;  ///< kg m^2: the same of these
 
   /// N, of the end of the step. `a`: m/s^2, of the point, across the normal of where its friction acts.
@@ -137,41 +137,34 @@ MURO_INLINE void take_along(const V3<S>& r, const V3<S>& t, S x, Inertia<S>& to)
   to.C.yz -= c.y * t.z, to.C.zx -= c.z * t.x, to.C.xy -= c.x * t.y;
 }
 
-/// Adds what is more in J' K J and J' start where friction acts beside the point, so that the spin about the normal
-/// moves it by `turn`.
+/// Adds J' K J and J' start. `has_cells`: friction may act beside the point, which the spin about the normal moves by
+/// `turn`: that is turn x normal farther.
 template <class S>
-MURO_INLINE void add_turn(const ContactPoint<S>& p, const ContactStep<S>& c, Inertia<S>& to) {
-  const V3<S>& n = p.normal;
-  V3<S> turn = p.turn;
-  if (c.slides) turn = turn - dot(c.slide, turn) * c.slide;
-  const V3<S> held = c.across * turn, g = cross(p.arm, held);
-  const S x = dot(p.turn, held);
-  const V3<S> m = g + (S(0.5) * x) * n;  // n m' + m n'
-  to.A.xx += S(2) * n.x * m.x, to.A.yy += S(2) * n.y * m.y, to.A.zz += S(2) * n.z * m.z;
-  to.A.yz += n.y * m.z + m.y * n.z, to.A.zx += n.z * m.x + m.z * n.x, to.A.xy += n.x * m.y + m.x * n.y;
-  to.B.x += n.x * held, to.B.y += n.y * held, to.B.z += n.z * held;
-  to.n -= dot(p.turn, c.start) * n;
-}
-
-/// Adds J' K J and J' start.
-template <class S>
-MURO_INLINE void add_terms(const ContactPoint<S>& p, const ContactStep<S>& c, Inertia<S>& to) {
-  const V3<S>& r = p.arm;
-  const S x = c.across, beta = c.along - c.across, rr = dot(r, r);
-  const V3<S> m = cross(r, p.normal), b = m * beta;
-  to.A.xx += x * (rr - r.x * r.x) + b.x * m.x;
-  to.A.yy += x * (rr - r.y * r.y) + b.y * m.y;
-  to.A.zz += x * (rr - r.z * r.z) + b.z * m.z;
-  to.A.yz += b.y * m.z - x * (r.y * r.z);
-  to.A.zx += b.z * m.x - x * (r.z * r.x);
-  to.A.xy += b.x * m.y - x * (r.x * r.y);
-  to.B.x += V3<S>{b.x * p.normal.x, b.x * p.normal.y - x * r.z, b.x * p.normal.z + x * r.y};
-  to.B.y += V3<S>{b.y * p.normal.x + x * r.z, b.y * p.normal.y, b.y * p.normal.z - x * r.x};
-  to.B.z += V3<S>{b.z * p.normal.x - x * r.y, b.z * p.normal.y + x * r.x, b.z * p.normal.z};
-  add_about(to.C, c.across, c.along, p.normal);
+MURO_INLINE void add_terms(const ContactPoint<S>& p, const ContactStep<S>& c, bool has_cells, Inertia<S>& to) {
+  const V3<S>&n = p.normal, m = cross(p.arm, n);
+  const S x = c.across;
+  V3<S> r = p.arm, b = m * (c.along - x);
+  if (has_cells) r += cross(p.turn, n), b += x * p.turn;
+  Sym<S> o = {b.x * m.x, b.y * m.y, b.z * m.z, b.y * m.z, b.z * m.x, b.x * m.y};
+  if (has_cells) {
+    const V3<S> k = m - p.turn, h = x * p.turn;
+    o = {o.xx + k.x * h.x, o.yy + k.y * h.y, o.zz + k.z * h.z, o.yz + k.y * h.z, o.zx + k.z * h.x, o.xy + k.x * h.y};
+  }
+  const S rr = dot(r, r);
+  to.A.xx += x * (rr - r.x * r.x) + o.xx;
+  to.A.yy += x * (rr - r.y * r.y) + o.yy;
+  to.A.zz += x * (rr - r.z * r.z) + o.zz;
+  to.A.yz += o.yz - x * (r.y * r.z);
+  to.A.zx += o.zx - x * (r.z * r.x);
+  to.A.xy += o.xy - x * (r.x * r.y);
+  to.B.x += V3<S>{b.x * n.x, b.x * n.y - x * r.z, b.x * n.z + x * r.y};
+  to.B.y += V3<S>{b.y * n.x + x * r.z, b.y * n.y, b.y * n.z - x * r.x};
+  to.B.z += V3<S>{b.z * n.x - x * r.y, b.z * n.y + x * r.x, b.z * n.z};
+  add_about(to.C, x, c.along, n);
   if (c.slides) take_along(r, c.slide, x, to);
   to.f -= c.start;
-  to.n -= cross(r, c.start);
+  to.n -= cross(p.arm, c.start);
+  if (has_cells) to.n -= dot(p.turn, c.start) * n;
 }
 
 /// N: of spring and damper along the normal. `speed`: m/s, away from what is touched.
@@ -208,13 +201,12 @@ MURO_INLINE MaskOf<S> is_impact(const ContactPoint<S>& p, const ContactLaw<S>& l
 /// accelerations count from them; `spins`: see ContactSlot; `dt`: s. The way from the body's origin to the point counts
 /// as one that does not turn beyond what `own` has of it.
 template <class S>
-MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const V3<S>& own,
-                                 const V3<S>& more, bool spins, double dt) {
+MURO_INLINE void touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const V3<S>& own, const V3<S>& more,
+                       bool spins, double dt, ContactStep<S>& c) {
   const S h(dt), zero(0);
   const V3<S> velocity = own - p.velocity, none{zero, zero, zero};
   const S speed = dot(velocity, p.normal);
   const MaskOf<S> is_on = p.is_on > zero;
-  ContactStep<S> c;
   // along: spring and damper; an impact reaches the velocity of its rebound, whatever it takes
   S push = p.push, along = h * law.held;
   c.held = law.held;
@@ -242,8 +234,6 @@ MURO_INLINE ContactStep<S> touch(const ContactPoint<S>& p, const ContactLaw<S>& 
   if (c.slides) change = change - dot(c.slide, change) * c.slide;
   c.start = select(is_on, push * p.normal + (hold.force - hold.per_rate * change), none);
   c.start = c.force(p.normal, more);
-  c.torque = none, c.rolling = c.spinning = zero;
-  return c;
 }
 
 /// Resistance against rolling and spinning of the same point. Adds to `c` and to the inertia of the body.

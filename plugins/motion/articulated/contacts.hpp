@@ -134,9 +134,8 @@ class Contacts {
   }
   MURO_INLINE void add_terms(ContactSlot<S>& slot) {
     Inertia<S>& to = work_.external[slot.body];
-    slot.step = touch(slot.point, law_of(slot), slot.velocity, work_.drifts[slot.body], slot.spins, batch_.dt);
-    lanes::add_terms(slot.point, slot.step, to);
-    if (slot.has_cells) add_turn(slot.point, slot.step, to);
+    touch(slot.point, law_of(slot), slot.velocity, work_.drifts[slot.body], slot.spins, batch_.dt, slot.step);
+    lanes::add_terms(slot.point, slot.step, slot.has_cells, to);
     if (slot.resists_turning != 0)
       resist(slot.point, slot.turning, law_of(slot), work_.bodies[slot.body].w, batch_.dt, slot.step, to);
   }
@@ -187,6 +186,8 @@ class Contacts {
     double* wrench[count_of<S>];
     int body_of_next[count_of<S>];
     const int none = batch_.structure.count;
+    alike_ = count == count_of<S> && robots[0].contact_bodies != 0;
+    for (int i = 1; alike_ && i < count; ++i) alike_ = robots[i].contact_bodies == robots[0].contact_bodies;
     for (int i = 0; i < count_of<S>; ++i) {
       next[i] = end[i] = nullptr, wrench[i] = nullptr;
       if (i < count) next[i] = robots[i].contacts, end[i] = next[i] + robots[i].contact_count;
@@ -194,14 +195,22 @@ class Contacts {
       body_of_next[i] = next[i] == end[i] ? none : next[i]->body;
     }
     for (work_.contact_count = 0;;) {
-      int body = none;
-      for (int i = 0; i < count_of<S>; ++i) body = std::min(body, body_of_next[i]);
+      int body = body_of_next[0];
+      for (int i = 1; !alike_ && i < count_of<S>; ++i) body = std::min(body, body_of_next[i]);
       if (body == none) return;
       const bool is_first = work_.contact_count == 0 || work_.contacts[work_.contact_count - 1].body != body;
       ContactSlot<S>& slot = work_.contacts[work_.contact_count++];
       slot.body = body, slot.which = 0;
       const KernelContact* of_robot[count_of<S>];
-      for (int i = 0; i < count_of<S>; ++i) {
+      for (int i = 0; alike_ && i < count_of<S>; ++i) {
+        of_robot[i] = next[i]++;
+        slot.wrench.at[i] = wrench[i], wrench[i] += 6;
+      }
+      if (alike_) {
+        slot.which = lane::all_lanes<S>;
+        body_of_next[0] = next[0] == end[0] ? none : next[0]->body;
+      }
+      for (int i = 0; !alike_ && i < count_of<S>; ++i) {
         const bool has_one = body_of_next[i] == body;
         of_robot[i] = has_one ? next[i] : &no_kernel_contact;
         slot.wrench.at[i] = wrench[i];
@@ -223,23 +232,30 @@ class Contacts {
 
   void load_slot(const KernelContact* const (&of_robot)[count_of<S>], ContactSlot<S>& slot) {
     Places<S> place, kept;
-    unsigned traits = 0;
+    unsigned traits = 0, common = ~0u;
     for (int i = 0; i < count_of<S>; ++i) {
       const KernelContact& c = *of_robot[i];
       place.at[i] = c.place, slot.kept.at[i] = c.kept, kept.at[i] = c.kept;
-      traits |= c.traits;
+      traits |= c.traits, common &= c.traits;
     }
     slot.resists_turning = 0;
     if (traits & KernelContact::resists_turning)
       for (int i = 0; i < count_of<S>; ++i)
         slot.resists_turning |= (of_robot[i]->traits & KernelContact::resists_turning ? 1u : 0u) << i;
     const bool has_rims = traits & KernelContact::has_rim, has_cells = traits & KernelContact::has_cell,
-               has_lines = traits & KernelContact::may_be_line;
+               has_lines = traits & KernelContact::may_be_line,
+               are_ends = alike_ && common & KernelContact::may_be_line,
+               are_second = are_ends && common & KernelContact::is_second;  // loaded with the first
     slot.has_cells = has_cells || has_lines;
     const BodyStep<S>& body = work_.bodies[slot.body];
     const S zero(0);
-    S at[9], before[11];
-    load_rows(place, 0, at), load_rows(kept, 0, before);
+    if (!are_second) {
+      load_rows(place, 0, ends_[0]);
+      if (are_ends) load_rows(places_of(of_robot, [](auto& c) { return c.partner; }), 0, ends_[1]);
+    }
+    const S *const at = ends_[are_second ? 1 : 0], *const other_end = ends_[are_second ? 0 : 1];
+    S before[11];
+    load_rows(kept, 0, before);
     const V3<S> point{at[0], at[1], at[2]};
     const S load = before[9];
     slot.mean_load = before[10];
@@ -277,9 +293,13 @@ class Contacts {
     p.turn = {zero, zero, zero}, p.cell_speed = zero;
     slot.spins = false;
     if (slot.has_cells) {
+      slot.axis = {at[3], at[4], at[5]};
       V3<S> shift{zero, zero, zero};
       if (has_cells) shift = lane::load_vector(places_of(of_robot, [](auto& c) { return c.extent->shift; }));
-      if (has_lines) shift += shift_in_line(of_robot, point, {at[3], at[4], at[5]});
+      if (are_ends)
+        shift += shift_in_line(at, other_end);
+      else if (has_lines)
+        shift += shift_in_line(at, of_robot);
       p.turn = cross(p.normal, transposed_times(body.axes, shift));
       const V3<S> more = dot(body.w - p.spin, p.normal) * p.turn;
       slot.velocity += more;
@@ -314,14 +334,19 @@ class Contacts {
     p.slip += turning - dot(turning, p.normal) * p.normal;
   }
 
-  /// m, world: from the points to the middles of their cells, where they are ends of lines.
-  MURO_INLINE static V3<S> shift_in_line(const KernelContact* const (&of_robot)[count_of<S>], const V3<S>& point,
-                                         const V3<S>& normal) {
+  /// m, world: from the points to the middles of their cells, where they are ends of lines. `at`, `other`: points and
+  /// normals.
+  MURO_INLINE static V3<S> shift_in_line(const S* at, const S* other) {
+    const MaskOf<S> is_line =
+        dot(V3<S>{at[3], at[4], at[5]}, V3<S>{other[3], other[4], other[5]}) > S(contact_geometry::same_direction);
+    const V3<S> shift =
+        contact_geometry::shift_in_line(V3<S>{at[0], at[1], at[2]}, V3<S>{other[0], other[1], other[2]});
+    return select(is_line, shift, {S(0), S(0), S(0)});
+  }
+  MURO_INLINE static V3<S> shift_in_line(const S* at, const KernelContact* const (&of_robot)[count_of<S>]) {
     S other[6];
     load_rows(places_of(of_robot, [](auto& c) { return c.partner ? c.partner : c.place; }), 0, other);
-    const MaskOf<S> is_line = dot(normal, V3<S>{other[3], other[4], other[5]}) > S(contact_geometry::same_direction);
-    const V3<S> shift = contact_geometry::shift_in_line(point, V3<S>{other[0], other[1], other[2]});
-    return select(is_line, shift, {S(0), S(0), S(0)});
+    return shift_in_line(at, other);
   }
   /// Of each robot what `get` finds in its contact.
   template <class Get>
@@ -380,7 +405,7 @@ class Contacts {
                   slot.which);
     const V3<S> force = body.axes * o.force;
     V3<S> moment = none;
-    if (slot.has_cells) moment = dot(p.turn, o.force) * (body.axes * p.normal);
+    if (slot.has_cells) moment = dot(p.turn, o.force) * slot.axis;
     if (slot.resists_turning != 0) {
       moment += body.axes * slot.step.moment(p.normal, body.alpha);
       const V3<S> t = body.axes * select(is_on, turn_after(slot, body, load), none);
@@ -413,8 +438,10 @@ class Contacts {
   double mean_part_ = 0;  ///< of mean loads: what the last step makes of them
   Places<S> wrenches_;
   bool has_wrenches_ = false;
-  S hits_{0};   ///< above 0 where something is hit
-  S moved_{0};  ///< above 0 where something that is touched moves
+  bool alike_ = false;  ///< contacts of all robots are on the same bodies
+  S ends_[2][9];        ///< places of both ends of a line, of robots that are alike
+  S hits_{0};           ///< above 0 where something is hit
+  S moved_{0};          ///< above 0 where something that is touched moves
   bool knows_pushes_ = false;
   V3<S> pushed_alpha_, pushed_a_;  ///< by wrenches alone, where pushes are known
   V3<S> force_, torque_;

@@ -58,6 +58,13 @@ MURO_INLINE S sign_of(S x) {
   return select(x < S(0), S(-1), S(1));
 }
 
+/// N m or N: of a drive that reaches the velocity that it holds in the step, which takes `needed` beside friction.
+template <class S>
+MURO_INLINE S tracking_effort_of(const JointLaw<S>& law, S needed) {
+  const S zero(0), at_rest = sign_of(needed) * max(abs(needed) - law.friction, zero);
+  return select(law.velocity == zero, at_rest, needed + sign_of(law.velocity) * law.friction);
+}
+
 /// Where the law meets what a joint does that has the velocity `free` (rad/s or m/s) without it and that an impulse
 /// changes by 1 / `inertia` (kg m^2 or kg), in a step of `dt` (s).
 template <class S>
@@ -67,9 +74,7 @@ MURO_INLINE JointPiece<S> meet(const JointLaw<S>& law, S inertia, S free, double
   auto tracks = zero > one;
   S tracking_effort = zero;
   if (law.holds_velocity) {
-    const S v = law.velocity, needed = (per_second + law.damping) * v - push;
-    const S at_rest = sign_of(needed) * max(abs(needed) - law.friction, zero);
-    tracking_effort = select(v == zero, at_rest, needed + sign_of(v) * law.friction);
+    tracking_effort = tracking_effort_of(law, (per_second + law.damping) * law.velocity - push);
     tracks = abs(tracking_effort) <= law.effort;
     pull = clamp(tracking_effort, -law.effort, law.effort);
     drag = zero;
@@ -149,11 +154,16 @@ MURO_INLINE MaskOf<S> are_alike(const JointPiece<S>& a, const JointPiece<S>& b) 
 template <class S>
 MURO_INLINE MaskOf<S> goes_on(const JointLaw<S>& law, const JointPiece<S>& tried, S v) {
   const S zero(0);
-  if (law.holds_velocity) return S(1) < zero;
   const auto is_this_piece = (tried.is_free > zero) & (tried.drag == law.drag + law.damping) &
                              (tried.pull == law.pull - sign_of(v) * law.friction);
   return is_this_piece & (abs(law.pull - law.drag * v) <= law.effort) & (abs(v) <= S(law.speed)) & (v < law.highest) &
          (v > law.lowest);
+}
+
+/// Whether a drive that was tried to reach the velocity that it holds does so with `effort`, as most do.
+template <class S>
+MURO_INLINE MaskOf<S> tracks(const JointLaw<S>& law, const JointPiece<S>& tried, S effort) {
+  return (tried.is_free == S(0)) & (tried.velocity == law.velocity) & (abs(effort) <= law.effort);
 }
 
 /// Whether friction that was tried to hold a joint at rest holds it, against `needed` (N m or N), the effort along the
@@ -161,7 +171,6 @@ MURO_INLINE MaskOf<S> goes_on(const JointLaw<S>& law, const JointPiece<S>& tried
 template <class S>
 MURO_INLINE MaskOf<S> stays_at_rest(const JointLaw<S>& law, const JointPiece<S>& tried, S needed) {
   const S zero(0);
-  if (law.holds_velocity) return S(1) < zero;
   const S drive = clamp(law.pull, -law.effort, law.effort);
   return (tried.is_free == zero) & (tried.velocity == zero) & (law.friction > zero) & (law.lowest < zero) &
          (law.highest > zero) & (abs(needed - drive) <= law.friction);

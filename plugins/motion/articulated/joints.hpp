@@ -89,15 +89,24 @@ class Joints {
       const BodyStep<S>& b = work_.bodies[k];
       JointPiece<S>& tried = work_.pieces[k];
       const JointLaw<S> law = this->law(k);
-      const S sign(s_.bodies[k].sign), v = start_of(k).velocity, after = v + sign * S(batch_.dt) * b.qdd;
-      const auto goes = goes_on(law, tried, after);
-      tried.effort = law.pull - law.drag * after;
-      if (lane::bits(goes) == all) continue;
+      const S sign(s_.bodies[k].sign), v = start_of(k).velocity;
+      MaskOf<S> stays;
+      if (!law.holds_velocity) {
+        const S after = v + sign * S(batch_.dt) * b.qdd;
+        stays = goes_on(law, tried, after);
+        tried.effort = law.pull - law.drag * after;
+        if (lane::bits(stays) == all) continue;
+      }
       const S inertia = moved_inertia(s_.bodies[k], b) + armature_of(k);
-      const S load = sign * (b.needed + b.terms.effort);
-      const auto rests = stays_at_rest(law, tried, load + sign * inertia * b.qdd);
-      tried.effort = select(rests, clamp(law.pull, -law.effort, law.effort), tried.effort);
-      const auto stays = goes | rests;
+      const S load = sign * (b.needed + b.terms.effort), needed = load + sign * inertia * b.qdd;
+      if (law.holds_velocity) {
+        tried.effort = tracking_effort_of(law, needed + law.damping * law.velocity);
+        stays = tracks(law, tried, tried.effort);
+      } else {
+        const auto rests = stays_at_rest(law, tried, needed);
+        tried.effort = select(rests, clamp(law.pull, -law.effort, law.effort), tried.effort);
+        stays = stays | rests;
+      }
       if (lane::bits(stays) == all) continue;
       const JointPiece<S> found = meet(law, inertia, v - S(batch_.dt) * load / inertia, batch_.dt);
       const auto same = stays | (tried == found);

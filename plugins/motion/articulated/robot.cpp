@@ -253,6 +253,7 @@ void Robot::prepare(double dt) {
   contacts_.find_cells();
   state_.contacts = contacts_.contacts().data();
   state_.contact_count = int(contacts_.contacts().size());
+  state_.contact_bodies = contacts_.bodies();
   state_.is_pushed = contacts_.touches_robots() || !self_contacts_.contacts().empty();
   if (contact_wrenches_.size() < 6 * contact_count()) contact_wrenches_.resize(2 * 6 * contact_count());
   state_.contact_wrenches = contact_count() > 0 ? contact_wrenches_.data() : nullptr;

@@ -113,13 +113,13 @@ void RobotContacts::find(const TouchedBodies& bodies) {
     const Vec3 rim = link->orientation * bodies[c.self].shapes[c.self_shape].rim;
     std::copy_n(rim.data(), 3, extents_.emplace_back().rim);
     contact.set(KernelContact::has_rim, !rim.isZero(0));
-    contact.set(KernelContact::resists_turning,
-                c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0);
+    contact.set(KernelContact::resists_turning, c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0);
     places_.push_back({i, link->loaded_link,
                        contact_geometry::is_of_disc(bodies[c.self].shapes[c.self_shape], other.shapes[c.other_shape]),
                        false});
   }
   sort_by_body();
+  find_bodies();
   find_joins();
 }
 
@@ -136,6 +136,20 @@ void RobotContacts::sort_by_body() {
       std::swap(extents_[k], extents_[k - 1]);
       std::swap(places_[k], places_[k - 1]);
     }
+}
+
+void RobotContacts::find_bodies() {
+  constexpr std::size_t most = 8;
+  constexpr int bits = 8;
+  bodies_ = 0;
+  if (contacts_.size() > most) return;
+  for (const KernelContact& c : contacts_) {
+    if (c.body + 1 >= 1 << bits) {
+      bodies_ = 0;
+      return;
+    }
+    bodies_ = bodies_ << bits | std::uint64_t(c.body + 1);
+  }
 }
 
 /// A list of the same pairs has the contacts of the step before, in their order, so that a restored state goes on as
@@ -179,6 +193,7 @@ void RobotContacts::find_joins() {
     for (std::size_t i = begin; i < end; ++i) {
       contacts_[i].partner = contacts_[begin + end - 1 - i].place;
       contacts_[i].set(KernelContact::may_be_line, true);
+      contacts_[i].set(KernelContact::is_second, i > begin);
     }
   });
 }

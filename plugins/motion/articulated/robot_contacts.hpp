@@ -51,6 +51,8 @@ class RobotContacts {
 
   /// By body, in rising order.
   const std::vector<KernelContact>& contacts() const { return contacts_; }
+  /// See RobotState::contact_bodies.
+  std::uint64_t bodies() const { return bodies_; }
   /// Whether there are contacts with other robots in the list.
   bool touches_robots() const { return touches_robots_; }
   /// That of the list which contact `i` is.
@@ -64,6 +66,7 @@ class RobotContacts {
 
   void find(const TouchedBodies& bodies);
   void sort_by_body();
+  void find_bodies();
   void keep_what_lasts(const TouchedBodies& bodies);
   void find_joins();
   void look_at_others(const TouchedBodies& bodies);
@@ -91,9 +94,10 @@ class RobotContacts {
   bool touches_robots_ = false;
   bool has_faces_ = false;  ///< more than two contacts are of the same two shapes
   std::vector<KernelContact> contacts_;
+  std::uint64_t bodies_ = 0;
   std::vector<ContactExtent> extents_;  ///< of contacts
-  std::vector<Place> places_;  ///< of contacts
-  std::vector<Twist> others_;  ///< of contacts: velocity of what they touch, at the point
+  std::vector<Place> places_;           ///< of contacts
+  std::vector<Twist> others_;           ///< of contacts: velocity of what they touch, at the point
   std::vector<KeptContact> before_;
 };
 

@@ -23,6 +23,7 @@ struct ContactSlot {
   ContactPoint<S> point;
   TurningPoint<S> turning;
   ContactStep<S> step;
+  V3<S> axis;                ///< the normal in the world, of those that have cells
   V3<S> way;                 ///< m, world: of the point since the last step
   bool bears_more = false;   ///< in some robot, than the robot weighs
   S more;                    ///< so many times as much, at least 1
