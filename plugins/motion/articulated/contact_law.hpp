@@ -24,8 +24,7 @@ struct ContactPoint {
   V3<S> turn;          ///< m: velocity of where its friction acts against its own, for 1 rad/s about the normal
   V3<S> normal;        ///< unit, into the body
   S depth;             ///< m; below 0 where there is no contact
-  V3<S> velocity;      ///< m/s, of what it touches, at the point
-  V3<S> spin;          ///< rad/s, of the same
+  V3<S> spin;          ///< rad/s, of the body against what it touches
   V3<S> displacement;  ///< m, of the friction spring, across the normal
   S friction;          ///< coefficient
   S restitution;
@@ -197,14 +196,14 @@ MURO_INLINE MaskOf<S> is_impact(const ContactPoint<S>& p, const ContactLaw<S>& l
   return ((p.restitution > S(0)) & (approach < -law.impact_speed)) | (approach < -law.hard_speed);
 }
 
-/// `own`: m/s, of the point on the body; `more`: m/s^2, cross(w, v) of the body and gravity, in its frame, since
-/// accelerations count from them; `spins`: see ContactSlot; `dt`: s. The way from the body's origin to the point counts
-/// as one that does not turn beyond what `own` has of it.
+/// `velocity`: m/s, of the point against what it touches; `more`: m/s^2, cross(w, v) of the body and gravity, in its
+/// frame, since accelerations count from them; `spins`: see ContactSlot; `dt`: s. The way from the body's origin to the
+/// point counts as one that does not turn beyond what `velocity` has of it.
 template <class S>
-MURO_INLINE void touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const V3<S>& own, const V3<S>& more,
+MURO_INLINE void touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const V3<S>& velocity, const V3<S>& more,
                        bool spins, double dt, ContactStep<S>& c) {
   const S h(dt), zero(0);
-  const V3<S> velocity = own - p.velocity, none{zero, zero, zero};
+  const V3<S> none{zero, zero, zero};
   const S speed = dot(velocity, p.normal);
   const MaskOf<S> is_on = p.is_on > zero;
   // along: spring and damper; an impact reaches the velocity of its rebound, whatever it takes
@@ -238,11 +237,11 @@ MURO_INLINE void touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const
 
 /// Resistance against rolling and spinning of the same point. Adds to `c` and to the inertia of the body.
 template <class S>
-MURO_INLINE void resist(const ContactPoint<S>& p, const TurningPoint<S>& t, const ContactLaw<S>& law, const V3<S>& w,
-                        double dt, ContactStep<S>& c, Inertia<S>& to) {
+MURO_INLINE void resist(const ContactPoint<S>& p, const TurningPoint<S>& t, const ContactLaw<S>& law, double dt,
+                        ContactStep<S>& c, Inertia<S>& to) {
   const S h(dt), square = law.radius * law.radius, stiffness = law.stiffness * square, held = law.held * square;
   const MaskOf<S> is_on = p.is_on > S(0);
-  const V3<S> rate = w - p.spin, about = dot(rate, p.normal) * p.normal, across = rate - about;
+  const V3<S> about = dot(p.spin, p.normal) * p.normal, across = p.spin - about;
   const V3<S> wound = dot(t.displacement, p.normal) * p.normal, rolled = t.displacement - wound;
   const BoundedSpring<S> roll(rolled, across, stiffness, held, t.rolling * p.load, is_on),
       spin(wound, about, stiffness, held, t.spinning * p.load, is_on);

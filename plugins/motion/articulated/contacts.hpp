@@ -136,8 +136,7 @@ class Contacts {
     Inertia<S>& to = work_.external[slot.body];
     touch(slot.point, law_of(slot), slot.velocity, work_.drifts[slot.body], slot.spins, batch_.dt, slot.step);
     lanes::add_terms(slot.point, slot.step, slot.has_cells, to);
-    if (slot.resists_turning != 0)
-      resist(slot.point, slot.turning, law_of(slot), work_.bodies[slot.body].w, batch_.dt, slot.step, to);
+    if (slot.resists_turning != 0) resist(slot.point, slot.turning, law_of(slot), batch_.dt, slot.step, to);
   }
   MURO_INLINE static void set(S& value, int i, double x) {
     if constexpr (count_of<S> == 1)
@@ -272,14 +271,6 @@ class Contacts {
     const Travel<S> travel = travel_of(slot.way, last, is_known, p.normal, arm, body, has_rims, rims, batch_.dt);
     p.arm = arm + travel.half;
     p.depth = at[6];
-    p.velocity = p.spin = {zero, zero, zero};
-    if (traits & KernelContact::is_moved) {
-      const auto velocity = places_of(of_robot, [](auto& c) { return c.other ? c.other : at_rest; });
-      const lane::TwistOf<S> other = lane::load_twist(velocity);
-      p.velocity = transposed_times(body.axes, other.linear);
-      p.spin = transposed_times(body.axes, other.angular);
-      moved_ += dot(other.linear, other.linear) + dot(other.angular, other.angular);
-    }
     const V3<S> d = transposed_times(body.axes, V3<S>{before[6], before[7], before[8]});
     p.displacement = d - dot(d, p.normal) * p.normal;
     p.friction = at[7], p.restitution = at[8];
@@ -290,6 +281,14 @@ class Contacts {
       slot.turning.displacement = transposed_times(body.axes, V3<S>{wound[0], wound[1], wound[2]});
     }
     slot.velocity = body.v + cross(body.w, arm + travel.all);
+    p.spin = body.w;
+    if (traits & KernelContact::is_moved) {
+      const auto velocity = places_of(of_robot, [](auto& c) { return c.other ? c.other : at_rest; });
+      const lane::TwistOf<S> other = lane::load_twist(velocity);
+      slot.velocity -= transposed_times(body.axes, other.linear);
+      p.spin -= transposed_times(body.axes, other.angular);
+      moved_ += dot(other.linear, other.linear) + dot(other.angular, other.angular);
+    }
     p.turn = {zero, zero, zero}, p.cell_speed = zero;
     slot.spins = false;
     if (slot.has_cells) {
@@ -301,15 +300,14 @@ class Contacts {
       else if (has_lines)
         shift += shift_in_line(at, of_robot);
       p.turn = cross(p.normal, transposed_times(body.axes, shift));
-      const V3<S> more = dot(body.w - p.spin, p.normal) * p.turn;
+      const V3<S> more = dot(p.spin, p.normal) * p.turn;
       slot.velocity += more;
       const S square = dot(more, more);
       slot.spins = any(square > S(least_cell_speed * least_cell_speed));
       if (slot.spins) p.cell_speed = max(sqrt(square) - S(least_cell_speed), zero);
     }
-    const V3<S> velocity_of_point = slot.velocity - p.velocity;
-    const S speed = dot(velocity_of_point, p.normal);
-    p.slip = velocity_of_point - speed * p.normal;
+    const S speed = dot(slot.velocity, p.normal);
+    p.slip = slot.velocity - speed * p.normal;
     p.pushed = knows_pushes_ ? S(batch_.dt) * dot(pushed_a_ + cross(pushed_alpha_, p.arm), p.normal) : zero;
     // what has borne nothing in the last step is tried without
     const S push = p.push = soft_push(p, law, speed);
@@ -359,7 +357,7 @@ class Contacts {
   /// s, of one that comes in.
   MURO_INLINE S time_since_touch(const ContactSlot<S>& slot) const {
     constexpr double least = 1e-3;  // m/s
-    const S approach = -dot(slot.velocity - slot.point.velocity, slot.point.normal);
+    const S approach = -dot(slot.velocity, slot.point.normal);
     return select(approach > S(least), min(slot.point.depth / max(approach, S(least)), S(batch_.dt)), S(0));
   }
 
@@ -381,7 +379,7 @@ class Contacts {
     ContactOutcome<S> o;
     o.force = slot.step.force(p.normal, a);
     o.load = dot(o.force, p.normal);
-    o.velocity = slot.velocity + S(batch_.dt) * (a + work_.drifts[slot.body]) - p.velocity;
+    o.velocity = slot.velocity + S(batch_.dt) * (a + work_.drifts[slot.body]);
     o.slip = o.velocity - dot(o.velocity, p.normal) * p.normal;
     return o;
   }
@@ -424,7 +422,7 @@ class Contacts {
   V3<S> turn_after(const ContactSlot<S>& slot, const BodyStep<S>& body, S load) {
     const S h(batch_.dt), stiffness = law_of(slot).stiffness * law_.radius * law_.radius;
     const V3<S>& n = slot.point.normal;
-    const V3<S> turn = slot.turning.displacement + h * (body.w + h * body.alpha - slot.point.spin);
+    const V3<S> turn = slot.turning.displacement + h * (slot.point.spin + h * body.alpha);
     const V3<S> wound = dot(turn, n) * n;
     return bounded(wound, slot.turning.spinning * load, stiffness) +
            bounded(turn - wound, slot.turning.rolling * load, stiffness);

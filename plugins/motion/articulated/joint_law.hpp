@@ -114,14 +114,14 @@ MURO_INLINE JointPiece<S> meet(const JointLaw<S>& law, S inertia, S free, double
 template <class S>
 MURO_INLINE JointPiece<S> guess(const JointLaw<S>& law, S v) {
   const S zero(0), one(1), hardly(1e-4);  // rad/s or m/s
+  if (law.holds_velocity) return {zero, zero, zero, clamp(law.velocity, law.lowest, law.highest), zero};
   const S friction = sign_of(v) * law.friction, wanted = law.pull - law.drag * v;
   const auto is_weak = abs(wanted) > law.effort;
   const S pull = select(is_weak, sign_of(wanted) * law.effort, law.pull), drag = select(is_weak, zero, law.drag);
   const auto sticks = (abs(v) < hardly) & (law.friction > zero);
   const auto stops = (v >= law.highest) | (v <= law.lowest);
-  const auto held = law.holds_velocity ? one > zero : (sticks | stops);
-  const S to = clamp(law.holds_velocity ? law.velocity : select(sticks, zero, v), law.lowest, law.highest);
-  return {select(MaskOf<S>(held), zero, one), pull - friction, drag + law.damping, to, zero};
+  const S to = clamp(select(sticks, zero, v), law.lowest, law.highest);
+  return {select(sticks | stops, zero, one), pull - friction, drag + law.damping, to, zero};
 }
 
 /// Where joints push each other from piece to piece: drive and friction as dampers, which do at the velocity `v` what

@@ -329,6 +329,22 @@ void Robot::clear_contact_wrenches(std::size_t first) {
   touching_links_.resize(first);
 }
 
+/// Of those from `begin` to `end`, at `origin` (m, world).
+Wrench Robot::sum_of_contacts(std::size_t begin, std::size_t end, const Vec3& origin) const {
+  using lane::V3;
+  const KernelContact* contact = contacts_.contacts().data() + begin;
+  const double* n = contact_wrenches_.data() + 6 * begin;
+  const V3<double> o = lane::splat<double>(origin);
+  V3<double> sum{0, 0, 0}, torque{0, 0, 0};
+  for (; begin < end; ++begin, ++contact, n += 6) {
+    const V3<double> force{n[0], n[1], n[2]}, moment{n[3], n[4], n[5]};
+    sum += force;
+    torque += cross(lane::splat<double>(contact->place) - o, force);
+    torque += moment;
+  }
+  return {{sum.x, sum.y, sum.z}, {torque.x, torque.y, torque.z}};
+}
+
 void Robot::export_contacts() {
   if (tells_contacts_) told_.clear();
   if (!links_are_clear_)
@@ -336,24 +352,19 @@ void Robot::export_contacts() {
       if (link.contact) *link.contact = Wrench{};
   links_are_clear_ = true;
   const std::size_t count = contact_count();
-  std::size_t touching = 0;
-  for (std::size_t i = 0; i < count; ++touching) {  // those of one link follow each other
-    const std::uint32_t number = contacts_.loaded_link(i);
-    if (touching == touching_links_.size() || touching_links_[touching] != number) {
-      clear_contact_wrenches(touching);
+  const std::span<const RobotContacts::OfLink> touching = contacts_.of_links();
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < touching.size(); ++k) {
+    const auto [number, end] = touching[k];
+    if (k == touching_links_.size() || touching_links_[k] != number) {
+      clear_contact_wrenches(k);
       touching_links_.push_back(number);
     }
-    const Vec3 origin = origin_of(number);
-    Wrench sum;
-    for (; i < count && contacts_.loaded_link(i) == number; ++i) {
-      const Wrench at_point = wrench_of_contact(i);
-      sum.add_force(at_point.force, contacts_.point(i) - origin);
-      sum.torque += at_point.torque;
-    }
-    *links_[number].contact = sum;
+    *links_[number].contact = sum_of_contacts(i, end, origin_of(number));
+    i = end;
   }
-  clear_contact_wrenches(touching);
-  for (std::size_t i = 0; tells_contacts_ && i < count; ++i) {
+  clear_contact_wrenches(touching.size());
+  for (i = 0; tells_contacts_ && i < count; ++i) {
     const Contact& c = contacts_.contact(i);
     told_.push_back({c.self, c.other, c.point, c.normal, c.depth, wrench_of_contact(i)});
   }

@@ -88,7 +88,8 @@ class Robot {
     const double* const n = contact_wrenches_.data() + 6 * i;
     return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
   }
-  Vec3 origin_of(std::uint32_t link) const { return link == 0 ? start_ : links_[link].pose->position; }
+  Wrench sum_of_contacts(std::size_t begin, std::size_t end, const Vec3& origin) const;
+  const Vec3& origin_of(std::uint32_t link) const { return link == 0 ? start_ : links_[link].pose->position; }
 
   std::uint32_t level_;
   multibody::RobotModel rigid_;

@@ -67,6 +67,7 @@ void RobotContacts::start() {
   if (!list_) return;
   constexpr std::size_t of_a_link = 8;
   const std::size_t most = of_a_link * link_places_.size();
+  of_links_.reserve(link_places_.size());
   contacts_.reserve(most), extents_.reserve(most), places_.reserve(most), others_.reserve(most), before_.reserve(most);
   if (!(*kept_).empty()) return;
   for (std::size_t i = 0; i < most; ++i) kept_.push_back({});
@@ -120,6 +121,7 @@ void RobotContacts::find(const TouchedBodies& bodies) {
   }
   sort_by_body();
   find_bodies();
+  find_links();
   find_joins();
 }
 
@@ -149,6 +151,14 @@ void RobotContacts::find_bodies() {
       return;
     }
     bodies_ = bodies_ << bits | std::uint64_t(c.body + 1);
+  }
+}
+
+void RobotContacts::find_links() {
+  of_links_.clear();
+  for (std::uint32_t i = 0; i < places_.size(); ++i) {
+    if (of_links_.empty() || of_links_.back().link != places_[i].link) of_links_.push_back({places_[i].link, i});
+    of_links_.back().end = i + 1;
   }
 }
 

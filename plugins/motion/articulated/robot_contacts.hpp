@@ -2,6 +2,7 @@
 // The contacts of a robot that its motion resolves: with scenery and with robots that no force moves.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "kept_contact.hpp"
@@ -59,7 +60,11 @@ class RobotContacts {
   const Contact& contact(std::size_t i) const { return (*list_)[places_[i].in_list]; }
   /// m, world.
   Vec3 point(std::size_t i) const { return Vec3::Map(contacts_[i].place); }
-  std::uint32_t loaded_link(std::size_t i) const { return places_[i].link; }
+  /// Contacts of one loaded link, which follow each other.
+  struct OfLink {
+    std::uint32_t link = 0, end = 0;  ///< the first of the next link
+  };
+  std::span<const OfLink> of_links() const { return of_links_; }
 
  private:
   static constexpr std::uint64_t no_revision = ~std::uint64_t{0};
@@ -67,6 +72,7 @@ class RobotContacts {
   void find(const TouchedBodies& bodies);
   void sort_by_body();
   void find_bodies();
+  void find_links();
   void keep_what_lasts(const TouchedBodies& bodies);
   void find_joins();
   void look_at_others(const TouchedBodies& bodies);
@@ -97,6 +103,7 @@ class RobotContacts {
   std::uint64_t bodies_ = 0;
   std::vector<ContactExtent> extents_;  ///< of contacts
   std::vector<Place> places_;           ///< of contacts
+  std::vector<OfLink> of_links_;
   std::vector<Twist> others_;           ///< of contacts: velocity of what they touch, at the point
   std::vector<KeptContact> before_;
 };

@@ -19,7 +19,7 @@ struct ContactSlot {
   bool has_cells = false;                ///< friction of some acts beside the point
   bool spins = false;                    ///< of some, the ends of the cell move about where it acts
   lane::Places<S, double> kept, wrench;  ///< of those lanes: what it keeps, and where to tell what it does
-  V3<S> velocity;                        ///< m/s: of the point on the body, in its frame; see ContactPoint::turn
+  V3<S> velocity;                        ///< m/s: of the point against what it touches; see ContactPoint::turn
   ContactPoint<S> point;
   TurningPoint<S> turning;
   ContactStep<S> step;
