@@ -30,6 +30,7 @@ struct ContactPoint {
   S restitution;
   S load;        ///< N: the normal force that bounds friction
   S push;        ///< N: of spring and damper along the normal, see soft_push()
+  S speed;       ///< m/s, against what it touches, along the normal
   V3<S> slip;    ///< m/s, of where its friction acts across the normal, about which friction counts as linear
   S pushed;      ///< m/s: what other forces add to its velocity along the normal, where that is known
   S gained;      ///< m/s: what its approach has gained since it touched, where that is known
@@ -197,14 +198,15 @@ MURO_INLINE MaskOf<S> is_impact(const ContactPoint<S>& p, const ContactLaw<S>& l
 }
 
 /// `velocity`: m/s, of the point against what it touches; `more`: m/s^2, cross(w, v) of the body and gravity, in its
-/// frame, since accelerations count from them; `spins`: see ContactSlot; `dt`: s. The way from the body's origin to the
-/// point counts as one that does not turn beyond what `velocity` has of it.
-template <class S>
+/// frame, since accelerations count from them; `spins`: see ContactSlot; `dt`: s; `is_first`: in the first trial, where
+/// friction counts as linear about the slip at the begin of the step. The way from the body's origin to the point
+/// counts as one that does not turn beyond what `velocity` has of it.
+template <bool is_first, class S>
 MURO_INLINE void touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const V3<S>& velocity, const V3<S>& more,
                        bool spins, double dt, ContactStep<S>& c) {
   const S h(dt), zero(0);
   const V3<S> none{zero, zero, zero};
-  const S speed = dot(velocity, p.normal);
+  const S speed = p.speed;
   const MaskOf<S> is_on = p.is_on > zero;
   // along: spring and damper; an impact reaches the velocity of its rebound, whatever it takes
   S push = p.push, along = h * law.held;
@@ -229,9 +231,13 @@ MURO_INLINE void touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const
   }
   c.along = select(is_on, along, zero), c.across = select(is_on, h * hold.per_rate, zero);
   c.slide = hold.slide, c.slides = hold.slides;
-  V3<S> change = velocity - speed * p.normal - p.slip;
-  if (c.slides) change = change - dot(c.slide, change) * c.slide;
-  c.start = select(is_on, push * p.normal + (hold.force - hold.per_rate * change), none);
+  V3<S> friction = hold.force;
+  if (!is_first) {
+    V3<S> change = velocity - speed * p.normal - p.slip;
+    if (c.slides) change = change - dot(c.slide, change) * c.slide;
+    friction -= hold.per_rate * change;
+  }
+  c.start = select(is_on, push * p.normal + friction, none);
   c.start = c.force(p.normal, more);
 }
 

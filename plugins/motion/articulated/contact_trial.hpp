@@ -75,7 +75,8 @@ MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>
   const S over_cone = dot(m.across, m.across) - limit * limit;
   const S outside = search < Search::yields ? max(dot(lack, lack) - allowed * allowed, over_cone) : over_cone;
   m.is_off_cone = is_on & !m.is_drawn & (outside > zero);
-  m.turns_back = m.is_off_cone & (dot(slot.step.slide, hold) < zero);
+  m.turns_back = S(1) < S(0);
+  if (slot.step.slides) m.turns_back = m.is_off_cone & (dot(slot.step.slide, hold) < zero);
   m.pushes_now = S(1) < S(0);
   if (search < Search::yields) m.pushes_now = (!is_on) & (slot.rests > zero);
   if (lane::any(m.pushes_now)) {

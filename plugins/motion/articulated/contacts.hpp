@@ -69,7 +69,7 @@ class Contacts {
   void add_terms() {
     for (int k = 0; k < batch_.structure.count; ++k)
       if (work_.acts_on[k]) set_wrench(k, work_.external[k]);
-    for (int i = 0; i < work_.contact_count; ++i) add_terms(work_.contacts[i]);
+    for (int i = 0; i < work_.contact_count; ++i) add_terms<false>(work_.contacts[i]);
   }
 
   /// Whether something is hit.
@@ -132,9 +132,10 @@ class Contacts {
     law_of_more_.most_more = S(standard_gravity) * law_.mass * (more - S(1));
     return law_of_more_;
   }
+  template <bool is_first>
   MURO_INLINE void add_terms(ContactSlot<S>& slot) {
     Inertia<S>& to = work_.external[slot.body];
-    touch(slot.point, law_of(slot), slot.velocity, work_.drifts[slot.body], slot.spins, batch_.dt, slot.step);
+    touch<is_first>(slot.point, law_of(slot), slot.velocity, work_.drifts[slot.body], slot.spins, batch_.dt, slot.step);
     lanes::add_terms(slot.point, slot.step, slot.has_cells, to);
     if (slot.resists_turning != 0) resist(slot.point, slot.turning, law_of(slot), batch_.dt, slot.step, to);
   }
@@ -225,7 +226,7 @@ class Contacts {
         set_wrench(body, work_.external[body]);
       }
       load_slot(of_robot, slot);
-      add_terms(slot);
+      add_terms<true>(slot);
     }
   }
 
@@ -289,7 +290,6 @@ class Contacts {
       p.spin -= transposed_times(body.axes, other.angular);
       moved_ += dot(other.linear, other.linear) + dot(other.angular, other.angular);
     }
-    p.turn = {zero, zero, zero}, p.cell_speed = zero;
     slot.spins = false;
     if (slot.has_cells) {
       slot.axis = {at[3], at[4], at[5]};
@@ -306,7 +306,7 @@ class Contacts {
       slot.spins = any(square > S(least_cell_speed * least_cell_speed));
       if (slot.spins) p.cell_speed = max(sqrt(square) - S(least_cell_speed), zero);
     }
-    const S speed = dot(slot.velocity, p.normal);
+    const S speed = p.speed = dot(slot.velocity, p.normal);
     p.slip = slot.velocity - speed * p.normal;
     p.pushed = knows_pushes_ ? S(batch_.dt) * dot(pushed_a_ + cross(pushed_alpha_, p.arm), p.normal) : zero;
     // what has borne nothing in the last step is tried without
@@ -328,8 +328,9 @@ class Contacts {
       p.gained = time_since_touch(slot) * max(-dot(work_.drifts[slot.body] - cross(body.w, body.v), p.normal), zero);
     // it is hit where its surface is, before it went in
     const V3<S> in = select(is_hit, S(-0.5) * p.depth, zero) * p.normal, turning = cross(body.w, in);
+    const S more = dot(turning, p.normal);
     p.arm += in, slot.velocity += turning;
-    p.slip += turning - dot(turning, p.normal) * p.normal;
+    p.speed += more, p.slip += turning - more * p.normal;
   }
 
   /// m, world: from the points to the middles of their cells, where they are ends of lines. `at`, `other`: points and

@@ -104,7 +104,7 @@ class RobotContacts {
   std::vector<ContactExtent> extents_;  ///< of contacts
   std::vector<Place> places_;           ///< of contacts
   std::vector<OfLink> of_links_;
-  std::vector<Twist> others_;           ///< of contacts: velocity of what they touch, at the point
+  std::vector<Twist> others_;  ///< of contacts: velocity of what they touch, at the point
   std::vector<KeptContact> before_;
 };
 
