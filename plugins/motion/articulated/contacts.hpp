@@ -68,8 +68,9 @@ class Contacts {
   /// What contacts and wrenches add to their bodies, after settle() has changed what is tried.
   void add_terms() {
     for (int k = 0; k < batch_.structure.count; ++k)
-      if (work_.acts_on[k]) set_wrench(k, work_.external[k]);
-    for (int i = 0; i < work_.contact_count; ++i) add_terms<false>(work_.contacts[i]);
+      if (work_.acts_on[k] && work_.changed[k]) set_wrench(k, work_.external[k]);
+    for (int i = 0; i < work_.contact_count; ++i)
+      if (work_.changed[work_.contacts[i].body]) add_terms<false>(work_.contacts[i]);
   }
 
   /// Whether something is hit.
@@ -89,6 +90,7 @@ class Contacts {
       const Misfit<S> m = misfit(slot, outcome, law_of(slot), weight_, search);
       if (!any(m.any)) continue;
       changed = changed | m.any;
+      work_.changed[slot.body] = true;
       revise(slot, outcome, m, search);
     }
     return any(changed);
@@ -328,9 +330,8 @@ class Contacts {
       p.gained = time_since_touch(slot) * max(-dot(work_.drifts[slot.body] - cross(body.w, body.v), p.normal), zero);
     // it is hit where its surface is, before it went in
     const V3<S> in = select(is_hit, S(-0.5) * p.depth, zero) * p.normal, turning = cross(body.w, in);
-    const S more = dot(turning, p.normal);
     p.arm += in, slot.velocity += turning;
-    p.speed += more, p.slip += turning - more * p.normal;
+    p.speed = dot(slot.velocity, p.normal), p.slip = slot.velocity - p.speed * p.normal;
   }
 
   /// m, world: from the points to the middles of their cells, where they are ends of lines. `at`, `other`: points and

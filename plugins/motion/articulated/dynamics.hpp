@@ -5,6 +5,7 @@
 #pragma once
 
 #include "body_step.hpp"
+#include "folding.hpp"
 
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
@@ -97,11 +98,21 @@ struct VelocityTerms {
   }
 };
 
+/// Adds what a body hands on to the parent's slot.
+template <class S>
+MURO_INLINE void hand_on(const Body& b, const Inertia<S>& m, Inertia<S>* slots) {
+  Inertia<S>& to = slots[b.parent_slot];
+  if (b.first)
+    to = m;
+  else
+    to += m;
+}
+
 /// Adds a body's inertia as its joint lets the parent feel it to the parent's slot. `external`: of contacts and
-/// wrenches on the body, or null.
+/// wrenches on the body, or null; `kept`: out, the same, or null.
 template <int K, bool plain, class S>
 [[gnu::noinline]] void fold(const Body& b, BodyStep<S>* bodies, int i, const Masses<S>& masses, Inertia<S>* slots,
-                            const Inertia<S>* external) {
+                            const Inertia<S>* external, Inertia<S>* kept) {
   constexpr int I = K + 1, J = K + 2;
   BodyStep<S>& own = bodies[i];
   const bool slides = !plain && b.slides;
@@ -146,11 +157,8 @@ template <int K, bool plain, class S>
   }
   if (!plain && b.turned) m = out_of(turn_of<S>(b), m);
   if (b.shifted || slides) shift(m, offset_of<plain>(b, own.q));
-  Inertia<S>& to = slots[b.parent_slot];
-  if (b.first)
-    to = m;
-  else
-    to += m;
+  if (b.kept && kept) *kept = m;
+  hand_on(b, m, slots);
 }
 
 /// kg m^2 or kg: what moves with a joint, by itself, when nothing else than its effort moves it. The body is folded.
@@ -206,14 +214,21 @@ void find_velocities(const Structure& s, BodyStep<S>* bodies) {
 
 /// Accelerations of all bodies and joints. `external`: one for each body, or null; `base`: out, the inertia of a free
 /// base with all that hangs on it; `fall`: m/s^2, the acceleration of a fixed base beyond gravity, in its frame.
+/// `kept`: one for each body, or null; `folding`: what has to be folded again after it has been, or null.
 /// `coupling` is told when all that hangs on a body is known, and when its acceleration is.
 template <class S, class Coupling>
 void accelerate_all(const Structure& s, const Masses<S>& masses, BodyStep<S>* bodies, Inertia<S>* slots,
-                    const Inertia<S>* const* external, Inertia<S>& base, const V3<S>& fall, Coupling&& coupling) {
+                    const Inertia<S>* const* external, Inertia<S>& base, const V3<S>& fall, Coupling&& coupling,
+                    Inertia<S>* kept = nullptr, const Folding* folding = nullptr) {
   for (int i = s.count; i-- > 1;) {
     coupling.fold(i);
-    with_joint(s.bodies[i],
-               [&]<int K, bool plain>() { fold<K, plain>(s.bodies[i], bodies, i, masses, slots, external[i]); });
+    if (folding && folding[i] != Folding::whole) {
+      if (folding[i] == Folding::kept) hand_on(s.bodies[i], kept[i], slots);
+      continue;
+    }
+    with_joint(s.bodies[i], [&]<int K, bool plain>() {
+      fold<K, plain>(s.bodies[i], bodies, i, masses, slots, external[i], kept ? kept + i : nullptr);
+    });
   }
   coupling.fold(0);
   if (s.fixed) {

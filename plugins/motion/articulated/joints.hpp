@@ -76,7 +76,8 @@ class Joints {
 
   /// Of the pieces to be tried next.
   void set_terms() {
-    for (int k = 1; k < s_.count; ++k) set_terms_of(k);
+    for (int k = 1; k < s_.count; ++k)
+      if (work_.changed[k]) set_terms_of(k);
   }
 
   /// Whether some joint of the robots `which` has come to another piece of its law than the one that was tried, which
@@ -122,6 +123,7 @@ class Joints {
         next = chosen(wavers, soft, found);
       }
       changed |= lane::bits(!settled);
+      work_.changed[k] = work_.changed[k] || lane::bits(!settled) != 0;
       const S effort = select(stays, tried.effort, found.effort);
       tried = chosen(settled, tried, next);
       tried.effort = effort;

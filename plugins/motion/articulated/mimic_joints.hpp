@@ -209,17 +209,18 @@ class MimicJoints {
   int next_ = 0;  ///< group
 };
 
-/// Of all bodies and joints.
+/// Of all bodies and joints. `is_again`: only what has changed since the last time, see Work::changed.
 template <class S>
 MURO_INLINE void accelerate_all(const Structure& s, const Masses<S>& masses, Work<S>& work, const V3<S>& fall,
-                                S per_second) {
-  const auto with = [&](auto coupling) {
-    accelerate_all(s, masses, work.bodies, work.slots, work.acts_on, work.base, fall, coupling);
-  };
-  if (s.has_mimics)
-    with(MimicJoints<S>(s, work, per_second));
-  else
-    with(NoCoupling());
+                                S per_second, bool is_again = false) {
+  if (s.has_mimics) {
+    accelerate_all(s, masses, work.bodies, work.slots, work.acts_on, work.base, fall,
+                   MimicJoints<S>(s, work, per_second));
+    return;
+  }
+  if (is_again) plan_folding(s, work.changed, work.folding);
+  accelerate_all(s, masses, work.bodies, work.slots, work.acts_on, work.base, fall, NoCoupling(), work.kept,
+                 is_again ? work.folding : nullptr);
 }
 
 }  // namespace MURO_ISA

@@ -89,6 +89,10 @@ int assign_slots(std::vector<Body>& bodies) {
     }
     b.parent_slot = bodies[p].slot;
   }
+  std::vector<int> children(bodies.size());
+  for (std::size_t i = 1; i < bodies.size(); ++i) ++children[std::size_t(bodies[i].parent)];
+  for (std::size_t i = 1; i < bodies.size(); ++i)
+    bodies[i].kept = children[i] > 0 && children[std::size_t(bodies[i].parent)] > 1;
   return slots;
 }
 

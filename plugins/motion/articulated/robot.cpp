@@ -210,6 +210,8 @@ void Robot::set_offsets() {
     const double* target = handles.target.get();
     const double* velocity = handles.position_target.velocity();
     if (interpolates() && j.drive == Drive::position) {
+      interpolated_.push_back(
+          {handles.position_target, positions_out_[i].get(), rigid_.bodies[i].limits, &targets_[i]});
       target = targets_.data() + i;
       velocity = targets_.data() + joints_.size() + i;
     }
@@ -277,11 +279,10 @@ void Robot::fetch_touching_links() const {
 }
 
 void Robot::advance_targets(double dt) {
-  for (std::size_t i = 1; i < joints_.size(); ++i) {
-    if (model_.joints[i].drive != Drive::position) continue;
-    const Reference r = joints_[i].position_target.advance(*positions_out_[i], rigid_.bodies[i].limits, dt);
-    targets_[i] = r.position;
-    targets_[joints_.size() + i] = r.velocity;
+  for (const InterpolatedTarget& t : interpolated_) {
+    const Reference r = t.target.advance(*t.position, t.limits, dt);
+    t.to[0] = r.position;
+    t.to[joints_.size()] = r.velocity;
   }
 }
 

@@ -63,6 +63,13 @@ class Robot {
     PositionTarget position_target;
     DriveLosses losses;
   };
+  /// A drive's, with all that a step needs of it side by side.
+  struct InterpolatedTarget {
+    PositionTarget target;
+    const double* position = nullptr;  ///< rad or m: of the joint
+    JointLimits limits;
+    double* to = nullptr;  ///< in targets_
+  };
   /// The base, or a link with shapes.
   struct LoadedLink {
     SumIn<Wrench> external;
@@ -105,7 +112,8 @@ class Robot {
   std::vector<JointHandles> joints_;                                       ///< one per body
   std::vector<const double*> velocities_;                                  ///< one per link
   std::vector<Out<double>> positions_out_, velocities_out_, efforts_out_;  ///< one per body
-  std::vector<double> targets_;    ///< of drives that interpolate: positions, then velocities
+  std::vector<double> targets_;  ///< of drives that interpolate: positions, then velocities
+  std::vector<InterpolatedTarget> interpolated_;
   std::vector<LoadedLink> links_;  ///< as rigid_.loaded_links
   bool has_contact_law_ = false;   ///< a contact algorithm adds to wrenches
   bool tells_contacts_ = false, tells_applied_ = false;

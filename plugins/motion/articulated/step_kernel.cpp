@@ -201,7 +201,8 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   const V3<S> fall = s.fixed ? transposed_times(bodies[0].axes, -gravity) : zero;
   for (int trial = 1;; ++trial) {
     if (trial > 1) contacts.add_terms(), joints.set_terms();
-    accelerate_all(s, masses, work, fall, S(1 / dt));
+    accelerate_all(s, masses, work, fall, S(1 / dt), trial > 1);
+    std::fill_n(work.changed, s.count, false);
     const bool loads = contacts.settle(search_of(trial));
     const bool others = trial < most_trials && joints.look_again(which);
     if (trial == most_trials || (!others && !loads)) break;

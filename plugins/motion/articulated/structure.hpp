@@ -31,6 +31,7 @@ struct Body {
   int slot = -1;          ///< where inertias of its children add up; -1: it has none
   int parent_slot = -1;   ///< the parent's
   bool first = false;     ///< of the children of its parent to be added
+  bool kept = false;      ///< it has children and its parent has others: what it hands on is kept for further trials
   double sign = 1;        ///< -1: the joint of the model turns about, or shifts along, the opposite axis
   double offset[3] = {};  ///< m: of the origin in the parent's frame at joint position 0
   double turn[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< columns: axes of the frame in the parent's at joint position 0

@@ -95,6 +95,9 @@ struct Work {
   S* changes;  ///< of the pieces of joints in this step, one a body
   Inertia<S>* slots;
   Inertia<S>* external;        ///< of bodies that `acts_on` says
+  Inertia<S>* kept;            ///< what bodies hand on, see Body::kept
+  bool* changed;               ///< one a body: after a trial, whether it is tried otherwise in the next
+  Folding* folding;            ///< one a body
   const Inertia<S>** acts_on;  ///< one a body: where its external is, or null
   V3<S>* drifts;               ///< m/s^2: of bodies with contacts, cross(w, v) and gravity, in their frames
   Response<S>* responses;      ///< one a body
@@ -117,17 +120,19 @@ struct Work {
           (sizeof(T) * std::size_t(count) + 63) / 64 * 64;  // NOLINT(bugprone-sizeof-expression): one T is a pointer
     };
     take(bodies, body_count), take(laws, body_count), take(pieces, body_count), take(changes, body_count);
-    take(slots, slot_count), take(external, body_count), take(acts_on, body_count), take(drifts, body_count);
+    take(slots, slot_count), take(external, body_count);
+    take(kept, body_count), take(changed, body_count), take(folding, body_count), take(acts_on, body_count),
+        take(drifts, body_count);
     take(responses, body_count), take(followings, body_count), take(innovations, s.mimic_numbers);
     take(composites, slot_count);
     take(stages, body_count), take(ends, body_count), take(wrenches, body_count);
     contacts = reinterpret_cast<ContactSlot<S>*>(next);
   }
   static std::size_t bytes(int body_count, int slot_count, int mimic_numbers, int contact_count) {
-    const auto n = std::size_t(body_count), rounding = std::size_t(22 * 64);
-    return n * (sizeof(BodyStep<S>) + sizeof(OwnLaw<S>) + sizeof(JointPiece<S>) + sizeof(S) + sizeof(Inertia<S>) +
-                sizeof(void*) + sizeof(V3<S>) + sizeof(Following<S>) + sizeof(Response<S>) + sizeof(JointStage<S>) +
-                sizeof(JointEnd<S>) + sizeof(lane::TwistOf<S>)) +
+    const auto n = std::size_t(body_count), rounding = std::size_t(25 * 64);
+    return n * (sizeof(BodyStep<S>) + sizeof(OwnLaw<S>) + sizeof(JointPiece<S>) + sizeof(S) + 2 * sizeof(Inertia<S>) +
+                sizeof(bool) + sizeof(Folding) + sizeof(void*) + sizeof(V3<S>) + sizeof(Following<S>) +
+                sizeof(Response<S>) + sizeof(JointStage<S>) + sizeof(JointEnd<S>) + sizeof(lane::TwistOf<S>)) +
            std::size_t(mimic_numbers) * sizeof(S) +
            std::size_t(slot_count) * (sizeof(Inertia<S>) + sizeof(Composite<S>)) +
            std::size_t(contact_count) * sizeof(ContactSlot<S>) + rounding;
