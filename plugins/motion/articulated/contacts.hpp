@@ -80,20 +80,21 @@ class Contacts {
   MaskOf<S> keep_energy() const { return (hits_ > S(0)) & !((dot(force_, force_) > S(0)) | (moved_ > S(0))); }
 
   /// Tells and keeps what contacts have done. Returns whether some have not done what was tried, but will do in the
-  /// next trial.
-  bool settle(Search search) {
-    MaskOf<S> changed = S(1) < S(0);
+  /// next trial, if it is not the last.
+  bool settle(Search search, bool is_last) {
+    bool is_changed = false;
     for (int i = 0; i < work_.contact_count; ++i) {
       ContactSlot<S>& slot = work_.contacts[i];
       const ContactOutcome<S> outcome = outcome_of(slot);
-      keep(slot, outcome);
+      if (is_last || !is_changed) keep(slot, outcome);
+      if (is_last) continue;
       const Misfit<S> m = misfit(slot, outcome, law_of(slot), weight_, search);
       if (!any(m.any)) continue;
-      changed = changed | m.any;
+      is_changed = true;
       work_.changed[slot.body] = true;
       revise(slot, outcome, m, search);
     }
-    return any(changed);
+    return is_changed;
   }
 
  private:
