@@ -24,7 +24,7 @@ struct ContactPoint {
   V3<S> turn;          ///< m: velocity of where its friction acts against its own, for 1 rad/s about the normal
   V3<S> normal;        ///< unit, into the body
   S depth;             ///< m; below 0 where there is no contact
-  V3<S> spin;          ///< rad/s, of the body against what it touches
+  V3<S> spin;          ///< rad/s, of the body against what it touches; where that resists turning
   V3<S> displacement;  ///< m, of the friction spring, across the normal
   S friction;          ///< coefficient
   S restitution;

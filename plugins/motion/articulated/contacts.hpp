@@ -80,14 +80,13 @@ class Contacts {
   MaskOf<S> keep_energy() const { return (hits_ > S(0)) & !((dot(force_, force_) > S(0)) | (moved_ > S(0))); }
 
   /// Tells and keeps what contacts have done. Returns whether some have not done what was tried, but will do in the
-  /// next trial, if it is not the last.
-  bool settle(Search search, bool is_last) {
+  /// next trial.
+  bool settle(Search search) {
     bool is_changed = false;
     for (int i = 0; i < work_.contact_count; ++i) {
       ContactSlot<S>& slot = work_.contacts[i];
       const ContactOutcome<S> outcome = outcome_of(slot);
-      if (is_last || !is_changed) keep(slot, outcome);
-      if (is_last) continue;
+      if (!is_changed) keep(slot, outcome);
       const Misfit<S> m = misfit(slot, outcome, law_of(slot), weight_, search);
       if (!any(m.any)) continue;
       is_changed = true;
@@ -95,6 +94,10 @@ class Contacts {
       revise(slot, outcome, m, search);
     }
     return is_changed;
+  }
+  /// The same, of the last trial.
+  void settle() {
+    for (int i = 0; i < work_.contact_count; ++i) keep(work_.contacts[i], outcome_of(work_.contacts[i]));
   }
 
  private:
@@ -285,14 +288,15 @@ class Contacts {
       slot.turning.displacement = transposed_times(body.axes, V3<S>{wound[0], wound[1], wound[2]});
     }
     slot.velocity = body.v + cross(body.w, arm + travel.all);
-    p.spin = body.w;
+    V3<S> spin = body.w;
     if (traits & KernelContact::is_moved) {
       const auto velocity = places_of(of_robot, [](auto& c) { return c.other ? c.other : at_rest; });
       const lane::TwistOf<S> other = lane::load_twist(velocity);
       slot.velocity -= transposed_times(body.axes, other.linear);
-      p.spin -= transposed_times(body.axes, other.angular);
+      spin -= transposed_times(body.axes, other.angular);
       moved_ += dot(other.linear, other.linear) + dot(other.angular, other.angular);
     }
+    if (slot.resists_turning != 0) p.spin = spin;
     slot.spins = false;
     if (slot.has_cells) {
       slot.axis = {at[3], at[4], at[5]};
@@ -303,7 +307,7 @@ class Contacts {
       else if (has_lines)
         shift += shift_in_line(at, of_robot);
       p.turn = cross(p.normal, transposed_times(body.axes, shift));
-      const V3<S> more = dot(p.spin, p.normal) * p.turn;
+      const V3<S> more = dot(spin, p.normal) * p.turn;
       slot.velocity += more;
       const S square = dot(more, more);
       slot.spins = any(square > S(least_cell_speed * least_cell_speed));

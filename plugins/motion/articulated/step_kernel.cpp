@@ -203,8 +203,11 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
     if (trial > 1) contacts.add_terms(), joints.set_terms();
     accelerate_all(s, masses, work, fall, S(1 / dt), trial > 1);
     std::fill_n(work.changed, s.count, false);
-    const bool loads = contacts.settle(search_of(trial), trial == most_trials);
-    const bool others = trial < most_trials && joints.look_again(which);
+    if (trial == most_trials) {
+      contacts.settle();
+      break;
+    }
+    const bool loads = contacts.settle(search_of(trial)), others = joints.look_again(which);
     if (!others && !loads) break;
   }
   MaskOf<S> is_smooth = untouched;
