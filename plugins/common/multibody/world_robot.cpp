@@ -87,7 +87,7 @@ void WorldRobot::connect_drives(Connector& c, const RobotView& view, const Param
     link.limits = body.limits;
     bodies[i].inertia = body.inertia;
   }
-  moved_inertias_ = MovedInertias(std::move(bodies), model_.fixed_base);
+  moved_inertias_ = MovedInertias(bodies, model_.fixed_base);
   positions_.resize(joints_.size());
 }
 

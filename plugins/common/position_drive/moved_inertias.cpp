@@ -3,69 +3,67 @@
 
 #include <algorithm>
 
-#include "muro/toolkit/link_pose.hpp"
-
 namespace muro {
 
-MovedInertias::Composite MovedInertias::Composite::without(const Composite& part) const {
-  return {mass - part.mass, first_moment - part.first_moment, second_moment - part.second_moment};
+MovedInertias::MovedInertias(std::span<const Body> bodies, bool fixed_base) : fixed_base_(fixed_base) {
+  for (const Body& b : bodies) {
+    TreeBody& t = bodies_.emplace_back();
+    t.parent = bodies_.size() == 1 ? -1 : b.link.parent;
+    t.joint = JointFrame(b.link);
+    t.armature = b.link.limits.armature;
+    t.mass = b.inertia.mass, t.com = plain(b.inertia.com), t.tensor = plain(b.inertia.tensor());
+  }
 }
-
-double MovedInertias::Composite::along(JointKind kind, const Placed& placed) const {
-  if (kind == JointKind::prismatic) return std::max(mass, 0.0);
-  if (kind == JointKind::fixed) return 0;
-  // about a parallel axis through a point p: the sum of m |a x (r - p)|^2
-  const Vec3 arm = placed.joint - placed.axis * placed.axis.dot(placed.joint);
-  const double about_origin = placed.axis.dot(second_moment * placed.axis);
-  return std::max(about_origin - 2 * arm.dot(first_moment) + mass * arm.squaredNorm(), 0.0);
-}
-
-MovedInertias::MovedInertias(std::vector<Body> bodies, bool fixed_base)
-    : fixed_base_(fixed_base),
-      bodies_(std::move(bodies)),
-      poses_(bodies_.size()),
-      placed_(bodies_.size()),
-      composites_(bodies_.size()),
-      moved_(bodies_.size()) {}
 
 void MovedInertias::update(std::span<const double> positions) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const auto& [link, inertia] = bodies_[i];
-    if (i > 0) poses_[i] = poses_[std::size_t(link.parent)] * pose_in_parent(link, positions[i]);
-    const Mat3 rotation = poses_[i].orientation.toRotationMatrix();
-    place(i, {poses_[i].position, rotation * link.axis, poses_[i].position + rotation * inertia.com,
-              rotation * inertia.tensor() * rotation.transpose()});
+    TreeBody& b = bodies_[i];
+    Placed& p = b.placed;
+    if (b.parent >= 0)
+      p.frame = b.joint.place(bodies_[std::size_t(b.parent)].placed.frame, positions[i], p.axis);
+    else
+      p.axis = Vector{};
+    p.centre = p.frame.at(b.com);
+    p.tensor = turned_by(p.frame.axes, b.tensor);
+    b.composite = {b.mass, b.mass * p.centre, p.tensor};
+    add_point(b.mass, p.centre, b.composite.second_moment);
   }
-  find();
+  for (std::size_t i = bodies_.size(); i-- > 1;) {
+    const Composite& own = bodies_[i].composite;
+    Composite& on = bodies_[std::size_t(bodies_[i].parent)].composite;
+    on.mass += own.mass;
+    on.first_moment += own.first_moment;
+    on.second_moment.x += own.second_moment.x;
+    on.second_moment.y += own.second_moment.y;
+    on.second_moment.z += own.second_moment.z;
+  }
 }
 
-void MovedInertias::place(std::size_t body, const Placed& placed) {
-  const double mass = bodies_[body].inertia.mass;
-  const Vec3& r = placed.centre;
-  Composite& c = composites_[body];
-  placed_[body] = placed;
-  c.mass = mass;
-  c.first_moment = mass * r;
-  c.second_moment = placed.tensor + mass * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+double MovedInertias::along(std::size_t body, const Composite& c) const {
+  const TreeBody& b = bodies_[body];
+  if (b.joint.kind() == JointKind::prismatic) return std::max(c.mass, 0.0);
+  if (b.joint.kind() == JointKind::fixed) return 0;
+  // about a parallel axis through a point p: the sum of m |a x (r - p)|^2
+  const Vector &axis = b.placed.axis, &joint = b.placed.frame.origin, arm = joint - dot(axis, joint) * axis;
+  return std::max(dot(axis, c.second_moment * axis) - 2 * dot(arm, c.first_moment) + c.mass * dot(arm, arm), 0.0);
 }
 
-void MovedInertias::find() {
-  for (std::size_t i = bodies_.size() - 1; i > 0; --i) {
-    Composite& on = composites_[std::size_t(bodies_[i].link.parent)];
-    on.mass += composites_[i].mass;
-    on.first_moment += composites_[i].first_moment;
-    on.second_moment += composites_[i].second_moment;
-  }
-  for (std::size_t i = 1; i < bodies_.size(); ++i) {
-    const JointKind kind = bodies_[i].link.joint;
-    const double behind = composites_[i].along(kind, placed_[i]), armature = bodies_[i].link.limits.armature;
-    if (fixed_base_) {
-      moved_[i] = {behind + armature, behind + armature};
-      continue;
-    }
-    const double before = composites_[0].without(composites_[i]).along(kind, placed_[i]), sum = behind + before;
-    moved_[i] = {std::max(behind, before) + armature, (sum > 0 ? behind * before / sum : 0) + armature};
-  }
+double MovedInertias::before(std::size_t body) const {
+  const Composite &all = composite(0), &own = composite(body);
+  const Matrix &a = all.second_moment, &b = own.second_moment;
+  return along(body, {all.mass - own.mass, all.first_moment - own.first_moment, {a.x - b.x, a.y - b.y, a.z - b.z}});
+}
+
+double MovedInertias::driven(std::size_t body) const {
+  const double side = behind(body);
+  return (fixed_base_ ? side : std::max(side, before(body))) + bodies_[body].armature;
+}
+
+double MovedInertias::free(std::size_t body) const {
+  const double side = behind(body), armature = bodies_[body].armature;
+  if (fixed_base_) return side + armature;
+  const double other = before(body), sum = side + other;
+  return (sum > 0 ? side * other / sum : 0) + armature;
 }
 
 }  // namespace muro

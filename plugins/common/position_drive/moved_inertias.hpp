@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "muro/robot.hpp"
+#include "body_frame.hpp"
 
 namespace muro {
 
@@ -14,52 +14,62 @@ namespace muro {
 /// Featherstone, Rigid Body Dynamics Algorithms, 6.2), and of the rest of the robot, which a free base lets move.
 class MovedInertias {
  public:
+  using Vector = lane::V3<double>;
+  using Matrix = lane::M3<double>;
+
   /// A link, or several that are one body, with the joint that leads to it.
   struct Body {
     Link link;        ///< `parent`: number of a body that comes before it; -1: this is the base
     Inertia inertia;  ///< in the body's frame
   };
   MovedInertias() = default;
-  MovedInertias(std::vector<Body> bodies, bool fixed_base);
+  MovedInertias(std::span<const Body> bodies, bool fixed_base);
 
   /// `positions`: of the joint of each body, rad or m. Does not allocate.
   void update(std::span<const double> positions);
 
   /// Where a body is; in the frame of the base.
   struct Placed {
-    Vec3 joint = Vec3::Zero();   ///< m, a point on its joint's axis
-    Vec3 axis = Vec3::Zero();    ///< unit
-    Vec3 centre = Vec3::Zero();  ///< m, of mass
-    Mat3 tensor = Mat3::Zero();  ///< kg m^2, about the centre
+    BodyFrame frame;
+    Vector axis{};    ///< unit, of its joint, which the origin of its frame is on
+    Vector centre{};  ///< m, of mass
+    Matrix tensor{};  ///< kg m^2, about the centre
   };
-  /// The same for who knows already where all bodies are: place() each of them, then find().
-  void place(std::size_t body, const Placed& placed);
-  void find();
+  const Placed& placed(std::size_t body) const { return bodies_[body].placed; }
 
-  /// kg m^2 or kg: the larger one, with the armature. A foot on the ground does not move: its joint moves the robot.
-  double driven(std::size_t body) const { return moved_[body].driven; }
-  /// kg m^2 or kg: of the joint in free motion, by both sides together, with the armature.
-  double free(std::size_t body) const { return moved_[body].free; }
-
- private:
+  /// A body with all that hangs on it.
   struct Composite {
     double mass = 0;
-    Vec3 first_moment = Vec3::Zero();   ///< kg m, about the base's origin
-    Mat3 second_moment = Mat3::Zero();  ///< kg m^2, tensor of inertia about the base's origin
-    Composite without(const Composite& part) const;
-    /// About, or along, the axis of a joint.
-    double along(JointKind kind, const Placed& placed) const;
+    Vector first_moment{};   ///< kg m, about the base's origin
+    Matrix second_moment{};  ///< kg m^2, tensor of inertia about the base's origin
   };
-  struct Moved {
-    double driven = 0, free = 0;
-  };
+  const Composite& composite(std::size_t body) const { return bodies_[body].composite; }
 
+  /// kg m^2 or kg: of what hangs on a joint.
+  double behind(std::size_t body) const { return along(body, composite(body)); }
+  /// kg m^2 or kg: the larger one, with the armature. A foot on the ground does not move: its joint moves the robot.
+  double driven(std::size_t body) const;
+  /// kg m^2 or kg: of the joint in free motion, by both sides together, with the armature.
+  double free(std::size_t body) const;
+
+ private:
+  /// About, or along, the axis of the joint of a body.
+  double along(std::size_t body, const Composite& composite) const;
+  /// All but what hangs on a joint.
+  double before(std::size_t body) const;
+
+  struct TreeBody {
+    std::int32_t parent = -1;
+    JointFrame joint;
+    double armature = 0;  ///< kg m^2 or kg
+    double mass = 0;      ///< kg
+    Vector com{};         ///< m, in the body's frame
+    Matrix tensor{};      ///< kg m^2, the same
+    Placed placed;
+    Composite composite;
+  };
   bool fixed_base_ = true;
-  std::vector<Body> bodies_;
-  std::vector<Pose> poses_;  ///< in the frame of the base
-  std::vector<Placed> placed_;
-  std::vector<Composite> composites_;
-  std::vector<Moved> moved_;
+  std::vector<TreeBody> bodies_;
 };
 
 }  // namespace muro

@@ -40,6 +40,7 @@ CompositeBody::CompositeBody(std::span<const Link> links, std::span<const Inerti
   const std::vector<bool> moves = find_moving_joints(links, inertias, start);
   std::vector<std::uint32_t> group_of(links.size());
   std::vector<Pose> in_group(links.size());
+  std::vector<Inertia> of_groups(1);
   groups_.emplace_back();
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (i > 0) {
@@ -47,44 +48,55 @@ CompositeBody::CompositeBody(std::span<const Link> links, std::span<const Inerti
       group_of[i] = group_of[parent];
       in_group[i] = in_group[parent];
       if (moves[i]) {
-        Group g;
-        g.parent = group_of[parent];
-        g.joint = links[i];
-        g.joint.origin = in_group[parent] * links[i].origin;
+        Link joint = links[i];
+        joint.origin = in_group[parent] * links[i].origin;
         in_group[i] = Pose{};
         group_of[i] = std::uint32_t(groups_.size());
-        groups_.push_back(g);
+        Group& g = groups_.emplace_back();
+        g.parent = group_of[parent], g.joint = JointFrame(joint);
+        of_groups.emplace_back();
         joints_.push_back(std::uint32_t(i));
       } else {
         in_group[i] = in_group[parent] * pose_in_parent(links[i], start[i]);
       }
     }
-    Group& g = groups_[group_of[i]];
-    g.inertia = g.inertia + inertias[i].in(in_group[i]);
+    Inertia& inertia = of_groups[group_of[i]];
+    inertia = inertia + inertias[i].in(in_group[i]);
   }
-  for (const Group& g : groups_) mass_ += g.inertia.mass;
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    Group& g = groups_[i];
+    g.mass = of_groups[i].mass, g.com = plain(of_groups[i].com), g.tensor = plain(of_groups[i].tensor());
+    mass_ += g.mass;
+  }
 }
 
 MassState CompositeBody::state(std::span<const double> positions, std::span<const double> velocities) {
-  MassState s;
+  using Vector = lane::V3<double>;
+  Vector moment{0, 0, 0}, momentum{0, 0, 0};
+  lane::M3<double> tensor{};  // about the origin of the base
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& g = groups_[i];
     if (i > 0) {
       const Group& parent = groups_[g.parent];
-      const double q = positions[i - 1], rate = velocities[i - 1];
-      g.in_base = parent.in_base * pose_in_parent(g.joint, q);
-      const Vec3 axis = parent.in_base.orientation * Vec3(g.joint.origin.orientation * g.joint.axis);
+      Vector axis;
+      g.in_base = g.joint.place(parent.in_base, positions[i - 1], axis);
       g.motion.angular = parent.motion.angular;
-      g.motion.linear = parent.motion.at(g.in_base.position - parent.in_base.position);
-      (g.joint.joint == JointKind::revolute ? g.motion.angular : g.motion.linear) += axis * rate;
+      g.motion.linear = parent.motion.linear + cross(parent.motion.angular, g.in_base.origin - parent.in_base.origin);
+      (g.joint.kind() == JointKind::revolute ? g.motion.angular : g.motion.linear) += velocities[i - 1] * axis;
     }
-    const Vec3 arm = g.in_base.orientation * g.inertia.com;
-    s.com += g.inertia.mass * (g.in_base.position + arm);
-    s.com_velocity += g.inertia.mass * g.motion.at(arm);
+    const Vector arm = g.in_base.axes * g.com, centre = g.in_base.origin + arm;
+    moment += g.mass * centre;
+    momentum += g.mass * (g.motion.linear + cross(g.motion.angular, arm));
+    const lane::M3<double> own = turned_by(g.in_base.axes, g.tensor);
+    tensor.x += own.x, tensor.y += own.y, tensor.z += own.z;
+    add_point(g.mass, centre, tensor);
   }
-  s.com /= mass_;
-  s.com_velocity /= mass_;
-  for (const Group& g : groups_) s.tensor += g.inertia.in(g.in_base).about(s.com);
+  const Vector com = moment * (1 / mass_), velocity = momentum * (1 / mass_);
+  add_point(-mass_, com, tensor);
+  MassState s;
+  s.com = Vec3(com.x, com.y, com.z), s.com_velocity = Vec3(velocity.x, velocity.y, velocity.z);
+  s.tensor << tensor.x.x, tensor.y.x, tensor.z.x, tensor.x.y, tensor.y.y, tensor.z.y, tensor.x.z, tensor.y.z,
+      tensor.z.z;
   return s;
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "muro/robot.hpp"
+#include "plugins/common/position_drive/body_frame.hpp"
 
 namespace muro::simplified {
 
@@ -41,10 +41,12 @@ class CompositeBody {
  private:
   struct Group {
     std::uint32_t parent = 0;  ///< always smaller than its own number
-    Link joint;                ///< `origin` in the frame of the parent group
-    Inertia inertia;           ///< in the group's frame
-    Pose in_base;
-    Twist motion;  ///< relative to the base, its axes, at the group's origin
+    JointFrame joint;
+    double mass = 0;            ///< kg
+    lane::V3<double> com{};     ///< m, in the group's frame
+    lane::M3<double> tensor{};  ///< kg m^2, the same, about the centre
+    BodyFrame in_base;
+    lane::TwistOf<double> motion{};  ///< relative to the base, its axes, at the group's origin
   };
   double mass_ = 0;
   std::vector<Group> groups_;

@@ -2,15 +2,48 @@
 #include "decoupled_dynamics.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "composite_body.hpp"
-#include "muro/toolkit/link_pose.hpp"
 
 namespace muro::simplified {
 
 DecoupledDynamics::DecoupledDynamics(std::span<const Link> links, std::span<const Inertia> inertias,
-                                     std::span<const std::uint32_t> dofs, bool fixed_base)
+                                     std::span<const std::uint32_t> dofs, bool fixed_base, double armature)
     : fixed_base_(fixed_base), body_of_link_(links.size()), pose_in_body_(links.size()) {
+  std::vector<MovedInertias::Body> tree = join(links, inertias);
+  for (MovedInertias::Body& b : tree) {
+    mass_ += b.inertia.mass;
+    b.link.limits.armature += armature;
+  }
+  find_constant_inertias(tree);
+  tree_ = MovedInertias(tree, fixed_base);
+  positions_.resize(bodies_.size());
+  find_places(std::vector<double>(links.size()));
+  for (const std::uint32_t link : dofs) {
+    std::vector<MovedBody> moved;
+    std::vector<bool> moves(bodies_.size());
+    bool has_followers = false;
+    for (std::uint32_t k = 1; k < bodies_.size(); ++k) {
+      const Body& b = bodies_[k];
+      const Link& joint = tree[k].link;
+      const bool own = b.link == link, follows = joint.mimic == std::int32_t(link);
+      const bool carried = moves[std::size_t(b.parent)];
+      moves[k] = own || follows || carried;
+      has_followers = has_followers || follows;
+      if (!moves[k]) continue;
+      moved.push_back({k, carried ? b.parent : -1, own ? 1 : follows ? joint.mimic_multiplier : 0});
+    }
+    if (!has_followers) moved.clear();
+    dofs_.push_back({link, 0, 0});
+    moved_.push_back(std::move(moved));
+  }
+}
+
+/// Links into bodies.
+std::vector<MovedInertias::Body> DecoupledDynamics::join(std::span<const Link> links,
+                                                         std::span<const Inertia> inertias) {
+  std::vector<MovedInertias::Body> tree(1);
   bodies_.emplace_back();
   for (std::uint32_t i = 0; i < links.size(); ++i) {
     if (i > 0) {
@@ -18,157 +51,148 @@ DecoupledDynamics::DecoupledDynamics(std::span<const Link> links, std::span<cons
       body_of_link_[i] = body_of_link_[parent];
       pose_in_body_[i] = pose_in_body_[parent] * links[i].origin;
       if (links[i].joint != JointKind::fixed) {
-        Body b;
-        b.parent = std::int32_t(body_of_link_[parent]);
-        b.link = i;
-        b.joint = links[i];
-        b.joint.origin = pose_in_body_[i];
-        body_of_link_[i] = std::uint32_t(bodies_.size());
+        MovedInertias::Body b{links[i], {}};
+        b.link.parent = std::int32_t(body_of_link_[parent]);
+        b.link.origin = pose_in_body_[i];
+        body_of_link_[i] = std::uint32_t(tree.size());
         pose_in_body_[i] = Pose{};
-        bodies_.push_back(b);
+        Body& body = bodies_.emplace_back();
+        body.parent = b.link.parent, body.link = i, body.joint = links[i].joint;
+        tree.push_back(b);
       }
     }
-    Body& b = bodies_[body_of_link_[i]];
-    b.inertia = b.inertia + inertias[i].in(pose_in_body_[i]);
+    Inertia& inertia = tree[body_of_link_[i]].inertia;
+    inertia = inertia + inertias[i].in(pose_in_body_[i]);
   }
-  for (const Body& b : bodies_) mass_ += b.inertia.mass;
-  find_constant_inertias();
-  for (Body& b : bodies_) update_kinematics(b, 0);
-  update_composite();
-  for (const std::uint32_t link : dofs) {
-    std::vector<MovedBody> moved;
-    std::vector<bool> moves(bodies_.size());
-    for (std::uint32_t k = 1; k < bodies_.size(); ++k) {
-      const Body& b = bodies_[k];
-      const bool own = b.link == link, follows = b.joint.mimic == std::int32_t(link);
-      const bool carried = moves[std::size_t(b.parent)];
-      moves[k] = own || follows || carried;
-      if (!moves[k]) continue;
-      moved.push_back({k, carried ? b.parent : -1, own ? 1 : follows ? b.joint.mimic_multiplier : 0});
-    }
-    dofs_.push_back({link, 0, 0});
-    moved_.push_back(std::move(moved));
-  }
-}
-
-MovedInertias DecoupledDynamics::moved_inertias(double armature) const {
-  std::vector<MovedInertias::Body> bodies;
-  for (const Body& b : bodies_) {
-    bodies.push_back({b.joint, b.inertia});
-    bodies.back().link.parent = b.parent;
-    bodies.back().link.limits.armature += armature;
-  }
-  return MovedInertias(std::move(bodies), fixed_base_);
-}
-
-void DecoupledDynamics::find(MovedInertias& inertias) const {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Body& b = bodies_[i];
-    inertias.place(i, {b.pose_in_base.position, b.axis, b.centre, b.tensor});
-  }
-  inertias.find();
+  for (std::size_t i = 0; i < tree.size(); ++i) bodies_[i].mass = tree[i].inertia.mass;
+  return tree;
 }
 
 void DecoupledDynamics::add_wrench(std::uint32_t link, SumIn<Wrench> wrench) {
-  wrenches_.push_back({body_of_link_[link], pose_in_body_[link].position, wrench});
+  wrenches_.push_back({body_of_link_[link], plain(pose_in_body_[link].position), wrench});
 }
 
 /// A wheel keeps its inertia whatever its position, so it carries no other body, and nothing off its axis.
-void DecoupledDynamics::find_constant_inertias() {
-  for (Body& b : bodies_)
+void DecoupledDynamics::find_constant_inertias(std::span<const MovedInertias::Body> tree) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Body& b = bodies_[i];
     b.has_constant_inertia =
-        b.parent <= 0 && (b.parent < 0 || (b.joint.joint == JointKind::revolute && balanced(b.inertia, b.joint.axis)));
+        b.parent <= 0 &&
+        (b.parent < 0 || (b.joint == JointKind::revolute && balanced(tree[i].inertia, tree[i].link.axis)));
+  }
   for (const Body& b : bodies_)
     if (b.parent > 0) bodies_[std::size_t(b.parent)].has_constant_inertia = false;
   for (std::size_t i = 0; i < pose_in_body_.size(); ++i) {
-    Body& b = bodies_[body_of_link_[i]];
-    if (b.parent >= 0 && b.joint.axis.cross(pose_in_body_[i].position).norm() > 1e-6) b.has_constant_inertia = false;
+    const std::uint32_t body = body_of_link_[i];
+    if (body > 0 && tree[body].link.axis.cross(pose_in_body_[i].position).norm() > 1e-6)
+      bodies_[body].has_constant_inertia = false;
   }
   for (const Body& b : bodies_) all_constant_ = all_constant_ && b.has_constant_inertia;
 }
 
-void DecoupledDynamics::update_kinematics(Body& b, double position) {
-  if (b.parent >= 0) {
-    b.pose_in_base = bodies_[std::size_t(b.parent)].pose_in_base * pose_in_parent(b.joint, position);
-    b.axis = b.pose_in_base.orientation * b.joint.axis;
-  }
-  const Mat3 rotation = b.pose_in_base.orientation.toRotationMatrix();
-  b.centre = b.pose_in_base.position + rotation * b.inertia.com;
-  b.tensor = rotation * b.inertia.tensor() * rotation.transpose();
-}
-
-/// All bodies as one.
-void DecoupledDynamics::update_composite() {
-  centre_ = Vec3::Zero();
-  tensor_ = Mat3::Zero();
-  for (const Body& b : bodies_) centre_ += b.inertia.mass * b.centre;
-  centre_ /= mass_;
-  for (const Body& b : bodies_) {
-    const Vec3 d = b.centre - centre_;
-    tensor_ += b.tensor + b.inertia.mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
-  }
-  if (!fixed_base_) inverse_ = tensor_.inverse();
+/// Of all bodies, and of all as one.
+void DecoupledDynamics::find_places(std::span<const double> positions) {
+  for (std::size_t i = 1; i < bodies_.size(); ++i)
+    positions_[i] = bodies_[i].has_constant_inertia ? 0 : positions[bodies_[i].link];
+  tree_.update(positions_);
+  const MovedInertias::Composite& all = tree_.composite(0);
+  centre_ = all.first_moment * (1 / mass_);
+  tensor_ = all.second_moment;
+  add_point(-mass_, centre_, tensor_);
+  if (fixed_base_) return;
+  Mat3 tensor;
+  tensor << tensor_.x.x, tensor_.y.x, tensor_.z.x, tensor_.x.y, tensor_.y.y, tensor_.z.y, tensor_.x.z, tensor_.y.z,
+      tensor_.z.z;
+  inverse_ = plain(Mat3(tensor.inverse()));
 }
 
 /// `force`, `torque` on the whole robot at the base's origin, `spin` of the base; axes of the base.
-void DecoupledDynamics::add_inertial_forces(const Vec3& force, const Vec3& torque, const Vec3& spin,
-                                            const Vec3& gravity) {
-  Vec3 origin = Vec3::Zero(), turn = Vec3::Zero(), rate = Vec3::Zero();  // accelerations; angular velocity
+void DecoupledDynamics::add_inertial_forces(const Vector& force, const Vector& torque, const Vector& spin,
+                                            const Vector& gravity) {
+  Vector origin{0, 0, 0}, turn{0, 0, 0}, rate{0, 0, 0};  // accelerations; angular velocity
   if (!fixed_base_) {
     rate = spin;
-    turn = inverse_ * (torque - centre_.cross(force) - spin.cross(tensor_ * spin));
-    origin = force / mass_ + gravity - turn.cross(centre_) - spin.cross(spin.cross(centre_));
+    turn = inverse_ * (torque - cross(centre_, force) - cross(spin, tensor_ * spin));
+    origin = force * (1 / mass_) + gravity - cross(turn, centre_) - cross(spin, cross(spin, centre_));
   }
-  for (Body& b : bodies_) {
-    b.force += b.inertia.mass * (gravity - origin - turn.cross(b.centre) - rate.cross(rate.cross(b.centre)));
-    b.torque -= b.tensor * turn + rate.cross(b.tensor * rate);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Body& b = bodies_[i];
+    const MovedInertias::Placed& p = tree_.placed(i);
+    const Vector f = b.mass * (gravity - origin - cross(turn, p.centre) - cross(rate, cross(rate, p.centre)));
+    b.force += f;
+    b.torque += cross(p.centre, f) - (p.tensor * turn + cross(rate, p.tensor * rate));
   }
 }
 
+/// Of each body with all that hangs on it.
+void DecoupledDynamics::sum_forces() {
+  for (std::size_t i = bodies_.size(); i-- > 1;) {
+    Body& on = bodies_[std::size_t(bodies_[i].parent)];
+    on.force += bodies_[i].force;
+    on.torque += bodies_[i].torque;
+  }
+}
+
+/// Where only its own joint moves.
+void DecoupledDynamics::project_onto(Dof& dof) const {
+  const std::uint32_t body = body_of_link_[dof.link];
+  const Body& b = bodies_[body];
+  const MovedInertias::Composite& all = tree_.composite(body);
+  const Vector &axis = tree_.placed(body).axis, &joint = tree_.placed(body).frame.origin;
+  const bool turns = b.joint == JointKind::revolute;
+  dof.force = dot(axis, turns ? b.torque - cross(joint, b.force) : b.force);
+  dof.inertia = tree_.behind(body);
+  if (fixed_base_) return;
+  const Vector momentum = turns ? cross(axis, all.first_moment - all.mass * joint) : all.mass * axis;
+  dof.inertia -= dot(momentum, momentum) / mass_;
+}
+
+/// Where others follow. Before forces are summed.
 void DecoupledDynamics::project_onto(Dof& dof, std::span<const MovedBody> moved) {
-  Vec3 momentum = Vec3::Zero();
+  Vector momentum{0, 0, 0};
   dof.inertia = dof.force = 0;
   for (const MovedBody& m : moved) {
     Body& b = bodies_[m.body];
-    b.linear = b.angular = Vec3::Zero();
+    const MovedInertias::Placed& p = tree_.placed(m.body);
+    b.linear = b.angular = {0, 0, 0};
     if (m.carrier >= 0) {
       const Body& by = bodies_[std::size_t(m.carrier)];
       b.angular = by.angular;
-      b.linear = by.linear + by.angular.cross(b.pose_in_base.position - by.pose_in_base.position);
+      b.linear = by.linear + cross(by.angular, p.frame.origin - tree_.placed(std::size_t(m.carrier)).frame.origin);
     }
-    (b.joint.joint == JointKind::revolute ? b.angular : b.linear) += m.rate * b.axis;
-    const Vec3 velocity = b.linear + b.angular.cross(b.centre - b.pose_in_base.position);
-    const double mass = b.inertia.mass;
-    dof.inertia += mass * velocity.squaredNorm() + b.angular.dot(b.tensor * b.angular);
-    dof.force += b.force.dot(velocity) + b.torque.dot(b.angular);
-    momentum += mass * velocity;
+    (b.joint == JointKind::revolute ? b.angular : b.linear) += m.rate * p.axis;
+    const Vector velocity = b.linear + cross(b.angular, p.centre - p.frame.origin);
+    dof.inertia += b.mass * dot(velocity, velocity) + dot(b.angular, p.tensor * b.angular);
+    dof.force += dot(b.force, velocity) + dot(b.torque - cross(p.centre, b.force), b.angular);
+    momentum += b.mass * velocity;
   }
-  if (!fixed_base_) dof.inertia -= momentum.squaredNorm() / mass_;
+  if (!fixed_base_) dof.inertia -= dot(momentum, momentum) / mass_;
 }
 
 Wrench DecoupledDynamics::update(const Pose& pose, const Twist& twist, std::span<const double> positions,
                                  const Vec3& gravity) {
-  for (Body& b : bodies_) {
-    b.force = b.torque = Vec3::Zero();
-    if (!b.has_constant_inertia) update_kinematics(b, positions[b.link]);
+  for (Body& b : bodies_) b.force = b.torque = {0, 0, 0};
+  if (!all_constant_) find_places(positions);
+  const Matrix axes = plain(pose.orientation.toRotationMatrix());
+  Vector force{0, 0, 0}, torque{0, 0, 0};
+  for (const AppliedWrench& w : wrenches_) {
+    if (w.wrench.size() == 0) continue;
+    const Wrench wrench = w.wrench.value();
+    const Vector f = transposed_times(axes, plain(wrench.force)), at = tree_.placed(w.body).frame.at(w.origin);
+    const Vector t = transposed_times(axes, plain(wrench.torque)) + cross(at, f);
+    Body& b = bodies_[w.body];
+    b.force += f, b.torque += t;
+    force += f, torque += t;
   }
-  if (!all_constant_ && !fixed_base_) update_composite();
-  const Mat3 to_base = pose.orientation.toRotationMatrix().transpose();
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-  for (const AppliedWrench& p : wrenches_) {
-    if (p.wrench.size() == 0) continue;
-    const Wrench w = p.wrench.value();
-    const Vec3 f = to_base * w.force, t = to_base * w.torque;
-    Body& b = bodies_[p.body];
-    const Vec3 at = b.pose_in_base * p.origin;
-    b.force += f;
-    b.torque += t + (at - b.centre).cross(f);
-    force += f;
-    torque += t + at.cross(f);
-  }
-  add_inertial_forces(force, torque, to_base * twist.angular, to_base * gravity);
-  for (std::size_t k = 0; k < dofs_.size(); ++k) project_onto(dofs_[k], moved_[k]);
-  return {pose.orientation * force, pose.orientation * torque};
+  add_inertial_forces(force, torque, transposed_times(axes, plain(twist.angular)),
+                      transposed_times(axes, plain(gravity)));
+  for (std::size_t k = 0; k < dofs_.size(); ++k)
+    if (!moved_[k].empty()) project_onto(dofs_[k], moved_[k]);
+  sum_forces();
+  for (std::size_t k = 0; k < dofs_.size(); ++k)
+    if (moved_[k].empty()) project_onto(dofs_[k]);
+  const Vector f = axes * force, t = axes * torque;
+  return {{f.x, f.y, f.z}, {t.x, t.y, t.z}};
 }
 
 }  // namespace muro::simplified

@@ -28,9 +28,10 @@ class DecoupledDynamics {
     double inertia = 0;      ///< kg m^2 or kg
     double force = 0;        ///< N m or N: all but the drive and what the joint itself holds back
   };
-  /// `inertias`: one per link. `dofs`: links whose joints they are, none of them a mimic.
+  /// `inertias`: one per link. `dofs`: links whose joints they are, none of them a mimic. `armature`: kg m^2 or kg,
+  /// that driven() counts beside that of their limits.
   DecoupledDynamics(std::span<const Link> links, std::span<const Inertia> inertias, std::span<const std::uint32_t> dofs,
-                    bool fixed_base);
+                    bool fixed_base, double armature = 0);
 
   void add_wrench(std::uint32_t link, SumIn<Wrench> wrench);
 
@@ -39,27 +40,22 @@ class DecoupledDynamics {
   Wrench update(const Pose& pose, const Twist& twist, std::span<const double> positions, const Vec3& gravity);
   std::span<const Dof> dofs() const { return dofs_; }
 
-  /// Of its bodies, for joints whose limits have `armature` (kg m^2 or kg) beside their own. [setup]
-  MovedInertias moved_inertias(double armature) const;
-  /// Finds them where update() has found the bodies.
-  void find(MovedInertias& inertias) const;
-  /// Number of the body that moves with a link.
-  std::uint32_t body_of(std::uint32_t link) const { return body_of_link_[link]; }
+  /// kg m^2 or kg: that a drive of degree of freedom `k` moves, where update() has found the bodies. See MovedInertias.
+  double driven(std::size_t k) const { return tree_.driven(body_of_link_[dofs_[k].link]); }
 
  private:
-  /// Links that fixed joints hold together, behind the joint that moves them. Vectors in axes of the base, from its
-  /// origin.
+  using Vector = lane::V3<double>;
+  using Matrix = lane::M3<double>;
+
+  /// Links that fixed joints hold together, behind the joint that moves them. Vectors in axes of the base.
   struct Body {
     std::int32_t parent = -1;
-    std::uint32_t link = 0;             ///< the first
-    Link joint;                         ///< `origin` in the frame of the parent body
-    Inertia inertia;                    ///< in the body's frame
+    std::uint32_t link = 0;  ///< the first
+    JointKind joint = JointKind::fixed;
     bool has_constant_inertia = false;  ///< no joint moves its masses: it is the base, or a wheel on it
-    Pose pose_in_base;
-    Vec3 axis = Vec3::Zero(), centre = Vec3::Zero();
-    Mat3 tensor = Mat3::Zero();                          ///< about the centre
-    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();    ///< all that acts, about the centre
-    Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  ///< at its origin, for q' = 1 of the joint at hand
+    double mass = 0;                    ///< kg
+    Vector force{}, torque{};           ///< all that acts on it and, when they are summed, behind it; about the origin
+    Vector linear{}, angular{};         ///< at its origin, for q' = 1 of the joint at hand
   };
   /// A body that a degree of freedom moves.
   struct MovedBody {
@@ -69,27 +65,30 @@ class DecoupledDynamics {
   };
   struct AppliedWrench {
     std::uint32_t body = 0;
-    Vec3 origin = Vec3::Zero();  ///< m, in the body's frame
+    Vector origin{};  ///< m, in the body's frame
     SumIn<Wrench> wrench;
   };
 
-  void find_constant_inertias();
-  void update_kinematics(Body& body, double position);
-  void update_composite();
-  void add_inertial_forces(const Vec3& force, const Vec3& torque, const Vec3& spin, const Vec3& gravity);
+  std::vector<MovedInertias::Body> join(std::span<const Link> links, std::span<const Inertia> inertias);
+  void find_constant_inertias(std::span<const MovedInertias::Body> tree);
+  void find_places(std::span<const double> positions);
+  void add_inertial_forces(const Vector& force, const Vector& torque, const Vector& spin, const Vector& gravity);
+  void sum_forces();
+  void project_onto(Dof& dof) const;
   void project_onto(Dof& dof, std::span<const MovedBody> moved);
 
   bool fixed_base_;
   double mass_ = 0;
   bool all_constant_ = true;     ///< all bodies are
-  Vec3 centre_ = Vec3::Zero();   ///< m, of mass of all bodies
-  Mat3 tensor_ = Mat3::Zero();   ///< kg m^2, of all bodies, about centre_
-  Mat3 inverse_ = Mat3::Zero();  ///< of tensor_; for a free base
+  Vector centre_{};              ///< m, of mass of all bodies
+  Matrix tensor_{}, inverse_{};  ///< kg m^2, of all bodies, about centre_; the other for a free base
+  MovedInertias tree_;
+  std::vector<double> positions_;  ///< rad or m: of the joint of each body
   std::vector<Body> bodies_;
   std::vector<std::uint32_t> body_of_link_;
   std::vector<Pose> pose_in_body_;  ///< of each link
   std::vector<Dof> dofs_;
-  std::vector<std::vector<MovedBody>> moved_;  ///< by degree of freedom
+  std::vector<std::vector<MovedBody>> moved_;  ///< by degree of freedom; empty: its joint alone moves
   std::vector<AppliedWrench> wrenches_;
 };
 

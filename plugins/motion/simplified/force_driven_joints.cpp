@@ -22,7 +22,7 @@ ForceDrivenJoints::ForceDrivenJoints(Connector& c, const RobotView& robot, std::
                                      std::span<const PositionDrive> drives, std::string_view memory,
                                      const Settings& settings)
     : settings_(settings),
-      dynamics_(robot.links, inertias, links_of_dofs(robot, properties), settings.fixed_base),
+      dynamics_(robot.links, inertias, links_of_dofs(robot, properties), settings.fixed_base, settings.armature),
       positions_(start.begin(), start.end()) {
   dynamics_.update({}, {}, positions_, Vec3::Zero());
   for (const DecoupledDynamics::Dof& dof : dynamics_.dofs()) {
@@ -63,7 +63,6 @@ ForceDrivenJoints::ForceDrivenJoints(Connector& c, const RobotView& robot, std::
       dynamics_.add_wrench(i, c.read_sum(body, keys::external_wrench));
   }
   if (!has_position_drives_) return;
-  moved_inertias_ = dynamics_.moved_inertias(settings.armature);
   std::size_t count = 0;
   for (const Joint& j : joints_) count += j.target.memory_size();
   if (count == 0) return;
@@ -92,7 +91,6 @@ Wrench ForceDrivenJoints::evaluate(const Pose& pose, const Twist& twist, const V
 
 bool ForceDrivenJoints::move(double dt) {
   double all = 0;
-  if (has_position_drives_) dynamics_.find(moved_inertias_);
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const Joint& j = joints_[k];
     const DecoupledDynamics::Dof& dof = dynamics_.dofs()[k];
@@ -105,7 +103,7 @@ bool ForceDrivenJoints::move(double dt) {
       state = integrate_effort(state, *j.effort, dof.force, inertia + j.losses.armature(), limits, dt);
     } else if (j.properties.has_position_drive) {
       const Reference reference = j.target.advance(state.position, j.limits, dt);
-      const PdGains gains = j.drive.gains(moved_inertias_.driven(dynamics_.body_of(dof.link)));
+      const PdGains gains = j.drive.gains(dynamics_.driven(k));
       const ImplicitDrive drive = implicit_drive(gains, reference.position - state.position, reference.velocity, dt);
       state = follow_drive(state, drive, dof.force, inertia, j.limits, dt, *j.effort);
     } else {

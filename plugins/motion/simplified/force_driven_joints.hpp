@@ -66,7 +66,6 @@ class ForceDrivenJoints {
 
   Settings settings_;
   DecoupledDynamics dynamics_;
-  MovedInertias moved_inertias_;  ///< where some joint has a PD drive
   bool has_position_drives_ = false;
   std::vector<Joint> joints_;           ///< as dynamics_.dofs()
   std::vector<LinkJoint> link_joints_;  ///< all joints of the robot

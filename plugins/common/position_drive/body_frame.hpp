@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Where joints carry bodies, as matrices: for who needs places and inertias of all bodies of a robot in each step.
+#pragma once
+
+#include "muro/robot.hpp"
+#include "muro/simd/geometry.hpp"
+#include "muro/toolkit/elementary.hpp"
+
+namespace muro {
+
+inline lane::V3<double> plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+inline lane::M3<double> plain(const Mat3& m) {
+  return {plain(Vec3(m.col(0))), plain(Vec3(m.col(1))), plain(Vec3(m.col(2)))};
+}
+
+/// Where a body is, in the frame of the base.
+struct BodyFrame {
+  lane::M3<double> axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  lane::V3<double> origin{0, 0, 0};  ///< m
+
+  MURO_INLINE lane::V3<double> at(const lane::V3<double>& point) const { return origin + axes * point; }
+};
+
+/// How a joint places the body behind it.
+class JointFrame {
+ public:
+  JointFrame() = default;
+  explicit JointFrame(const Link& link)
+      : kind_(link.joint),
+        is_turned_(link.origin.orientation.coeffs() != Quat::Identity().coeffs()),
+        turn_(plain(link.origin.orientation.toRotationMatrix())),
+        offset_(plain(link.origin.position)),
+        axis_(plain(link.axis)) {}
+
+  JointKind kind() const { return kind_; }
+  /// `parent`: of the body that it hangs on; `position`: rad or m; `axis`: out, of the joint, in the frame of the base.
+  MURO_INLINE BodyFrame place(const BodyFrame& parent, double position, lane::V3<double>& axis) const {
+    BodyFrame f{is_turned_ ? parent.axes * turn_ : parent.axes, parent.at(offset_)};
+    axis = f.axes * axis_;
+    if (kind_ == JointKind::revolute)
+      f.axes = f.axes * rotation(position);
+    else if (kind_ == JointKind::prismatic)
+      f.origin += position * axis;
+    return f;
+  }
+
+ private:
+  /// About the axis (Rodrigues).
+  MURO_INLINE lane::M3<double> rotation(double angle) const {
+    const auto [s, c] = elementary::sincos(angle);
+    const lane::V3<double>&a = axis_, b = (1 - c) * a, d = s * a;
+    return {{c + b.x * a.x, b.x * a.y + d.z, b.x * a.z - d.y},
+            {b.y * a.x - d.z, c + b.y * a.y, b.y * a.z + d.x},
+            {b.z * a.x + d.y, b.z * a.y - d.x, c + b.z * a.z}};
+  }
+
+  JointKind kind_ = JointKind::fixed;
+  bool is_turned_ = false;
+  lane::M3<double> turn_{};
+  lane::V3<double> offset_{}, axis_{};
+};
+
+/// A tensor whose axes are turned by `axes`.
+MURO_INLINE lane::M3<double> turned_by(const lane::M3<double>& axes, const lane::M3<double>& tensor) {
+  const lane::M3<double> t = axes * tensor;
+  return {t.x * axes.x.x + t.y * axes.y.x + t.z * axes.z.x, t.x * axes.x.y + t.y * axes.y.y + t.z * axes.z.y,
+          t.x * axes.x.z + t.y * axes.y.z + t.z * axes.z.z};
+}
+
+/// Adds the tensor of inertia of a point of `mass` (kg, may be below 0) at `r` (m), about the origin.
+MURO_INLINE void add_point(double mass, const lane::V3<double>& r, lane::M3<double>& to) {
+  const lane::V3<double> p = mass * r;
+  const double square = dot(p, r);
+  to.x += {square - p.x * r.x, -(p.y * r.x), -(p.z * r.x)};
+  to.y += {-(p.x * r.y), square - p.y * r.y, -(p.z * r.y)};
+  to.z += {-(p.x * r.z), -(p.y * r.z), square - p.z * r.z};
+}
+
+}  // namespace muro
