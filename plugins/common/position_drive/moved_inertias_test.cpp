@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "muro/toolkit/link_pose.hpp"
+#include "muro/toolkit/rotations.hpp"
+
 namespace muro {
 namespace {
 
@@ -22,6 +25,25 @@ std::vector<MovedInertias::Body> two_links() {
   return {body_at(-1, JointKind::fixed, Vec3::Zero(), Vec3::UnitX(), 10, Vec3::Zero(), 2),
           body_at(0, JointKind::revolute, {0, 0, 1}, Vec3::UnitY(), 2, {0.2, 0, 0}, 0.03),
           body_at(1, JointKind::revolute, {0.4, 0, 0}, Vec3::UnitY(), 1, {0.2, 0, 0}, 0.02)};
+}
+
+TEST(JointFrames, PlaceBodiesAsPosesDo) {
+  Link link;
+  link.origin = {{0.1, -0.2, 0.3}, rotation_of(Vec3(0.4, 1.1, -0.7))};
+  link.axis = Vec3(0.6, 0, 0.8);
+  const Pose parent{{1, 2, 3}, rotation_of(Vec3(-0.2, 0.5, 2))};
+  const BodyFrame on{plain(parent.orientation.toRotationMatrix()), plain(parent.position)};
+  for (const JointKind kind : {JointKind::revolute, JointKind::prismatic, JointKind::fixed})
+    for (const double position : {0.0, 1e-9, 0.7, 3.0, 100.0}) {
+      link.joint = kind;
+      const Pose pose = parent * pose_in_parent(link, position);
+      lane::V3<double> axis;
+      const BodyFrame frame = JointFrame(link).place(on, position, axis);
+      const Vec3 point(0.3, -0.4, 0.5), there = pose * point, along = pose.orientation * link.axis;
+      const lane::V3<double> at = frame.at(plain(point));
+      EXPECT_LT((Vec3(at.x, at.y, at.z) - there).norm(), 1e-14 * (1 + position)) << position;
+      EXPECT_LT((Vec3(axis.x, axis.y, axis.z) - along).norm(), 1e-15) << position;
+    }
 }
 
 TEST(MovedInertias, AreTheDiagonalOfATwoLinkArmsInertiaMatrix) {
