@@ -4,7 +4,7 @@
 
 #include "muro/robot.hpp"
 #include "muro/simd/geometry.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "plugins/common/lanes/turn.hpp"
 
 namespace muro {
 
@@ -47,7 +47,7 @@ class JointFrame {
  private:
   /// About the axis (Rodrigues).
   MURO_INLINE lane::M3<double> rotation(double angle) const {
-    const auto [s, c] = elementary::sincos(angle);
+    const auto [c, s] = lane::turn_by(angle);
     const lane::V3<double>&a = axis_, b = (1 - c) * a, d = s * a;
     return {{c + b.x * a.x, b.x * a.y + d.z, b.x * a.z - d.y},
             {b.y * a.x - d.z, c + b.y * a.y, b.y * a.z + d.x},

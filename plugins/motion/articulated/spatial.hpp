@@ -4,13 +4,12 @@
 // in registers.
 #pragma once
 
-#include "muro/simd/geometry.hpp"
-#include "turn.hpp"
+#include "plugins/common/lanes/turn.hpp"
 
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-using lane::cross, lane::dot, lane::V3;
+using lane::cross, lane::dot, lane::Turn, lane::turn_by, lane::V3;
 
 /// Axis I of three that follow each other in a circle.
 template <int I, class T>

@@ -6,7 +6,7 @@
 #include "muro/simd/rows.hpp"
 #include "muro/simd/trig.hpp"
 
-namespace muro::articulated::lanes {
+namespace muro::lane {
 inline namespace MURO_ISA {
 
 /// Cosine and sine of an angle.
@@ -41,10 +41,10 @@ MURO_INLINE Turn<S> turn_by_less(S x) {
                                   z * (S(2.08757232129817482790e-09) + z * S(-1.13596475577881948265e-11))))));
   // which quarter: 0, 1/4, -1/2 or 1/2, -1/4 of a turn
   const S turns = k * S(0.25), quarter = turns - ((turns + magic) - magic);
-  const lane::MaskOf<S> is_odd = lane::abs(quarter) == S(0.25), is_half = lane::abs(quarter) == S(0.5);
-  const S sine = lane::select(is_odd, c, s), cosine = lane::select(is_odd, s, c);
-  return {lane::select(is_half | (quarter == S(0.25)), -cosine, cosine),
-          lane::select(is_half | (quarter == S(-0.25)), -sine, sine)};
+  const MaskOf<S> is_odd = abs(quarter) == S(0.25), is_half = abs(quarter) == S(0.5);
+  const S sine = select(is_odd, c, s), cosine = select(is_odd, s, c);
+  return {select(is_half | (quarter == S(0.25)), -cosine, cosine),
+          select(is_half | (quarter == S(-0.25)), -sine, sine)};
 }
 
 }  // namespace detail
@@ -52,13 +52,13 @@ MURO_INLINE Turn<S> turn_by_less(S x) {
 template <class S>
 MURO_INLINE Turn<S> turn_by(S angle) {
   Turn<S> t = detail::turn_by_less(angle);
-  const lane::MaskOf<S> is_less = lane::abs(angle) < S(detail::most_turn);
-  if (lane::bits(is_less) != lane::all_lanes<S>) {
-    const auto far = lane::sincos(angle);
-    t = {lane::select(is_less, t.c, far.cos), lane::select(is_less, t.s, far.sin)};
+  const MaskOf<S> is_less = abs(angle) < S(detail::most_turn);
+  if (bits(is_less) != all_lanes<S>) {
+    const auto far = sincos(angle);
+    t = {select(is_less, t.c, far.cos), select(is_less, t.s, far.sin)};
   }
   return t;
 }
 
 }  // namespace MURO_ISA
-}  // namespace muro::articulated::lanes
+}  // namespace muro::lane
