@@ -6,6 +6,7 @@
 #include "muro/simd/rows.hpp"
 #include "plugins/common/lanes/mass.hpp"
 #include "plugins/common/lanes/rotation.hpp"
+#include "plugins/common/lanes/vectors.hpp"
 
 namespace muro::contact_geometry {
 
@@ -15,7 +16,6 @@ namespace muro::contact_geometry {
 inline void correct_path(double* pose, double* twist, const lane::Mass<double>& mass, const lane::M3<double>& inverse,
                          double inverse_mass, const ImpactCorrection& impact) {
   using lane::cross, lane::in_world;
-  const auto plain = [](const Vec3& v) { return lane::V3<double>{v.x(), v.y(), v.z()}; };
   lane::Places<double, double> pose_at{{pose}}, twist_at{{twist}};
   lane::PoseOf<double> p = lane::load_pose(lane::as_read(pose_at));
   lane::TwistOf<double> t = lane::load_twist(lane::as_read(twist_at));

@@ -3,15 +3,10 @@
 #pragma once
 
 #include "muro/robot.hpp"
-#include "muro/simd/geometry.hpp"
 #include "plugins/common/lanes/turn.hpp"
+#include "plugins/common/lanes/vectors.hpp"
 
 namespace muro {
-
-inline lane::V3<double> plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-inline lane::M3<double> plain(const Mat3& m) {
-  return {plain(Vec3(m.col(0))), plain(Vec3(m.col(1))), plain(Vec3(m.col(2)))};
-}
 
 /// Where a body is, in the frame of the base.
 struct BodyFrame {
@@ -28,7 +23,7 @@ class JointFrame {
   explicit JointFrame(const Link& link)
       : kind_(link.joint),
         is_turned_(link.origin.orientation.coeffs() != Quat::Identity().coeffs()),
-        turn_(plain(link.origin.orientation.toRotationMatrix())),
+        turn_(columns_of(link.origin.orientation.toRotationMatrix())),
         offset_(plain(link.origin.position)),
         axis_(plain(link.axis)) {}
 

@@ -11,7 +11,7 @@ MovedInertias::MovedInertias(std::span<const Body> bodies, bool fixed_base) : fi
     t.parent = bodies_.size() == 1 ? -1 : b.link.parent;
     t.joint = JointFrame(b.link);
     t.armature = b.link.limits.armature;
-    t.mass = b.inertia.mass, t.com = plain(b.inertia.com), t.tensor = plain(b.inertia.tensor());
+    t.mass = b.inertia.mass, t.com = plain(b.inertia.com), t.tensor = columns_of(b.inertia.tensor());
   }
 }
 

@@ -32,7 +32,7 @@ TEST(JointFrames, PlaceBodiesAsPosesDo) {
   link.origin = {{0.1, -0.2, 0.3}, rotation_of(Vec3(0.4, 1.1, -0.7))};
   link.axis = Vec3(0.6, 0, 0.8);
   const Pose parent{{1, 2, 3}, rotation_of(Vec3(-0.2, 0.5, 2))};
-  const BodyFrame on{plain(parent.orientation.toRotationMatrix()), plain(parent.position)};
+  const BodyFrame on{columns_of(parent.orientation.toRotationMatrix()), plain(parent.position)};
   for (const JointKind kind : {JointKind::revolute, JointKind::prismatic, JointKind::fixed})
     for (const double position : {0.0, 1e-9, 0.7, 3.0, 100.0}) {
       link.joint = kind;
@@ -41,8 +41,8 @@ TEST(JointFrames, PlaceBodiesAsPosesDo) {
       const BodyFrame frame = JointFrame(link).place(on, position, axis);
       const Vec3 point(0.3, -0.4, 0.5), there = pose * point, along = pose.orientation * link.axis;
       const lane::V3<double> at = frame.at(plain(point));
-      EXPECT_LT((Vec3(at.x, at.y, at.z) - there).norm(), 1e-14 * (1 + position)) << position;
-      EXPECT_LT((Vec3(axis.x, axis.y, axis.z) - along).norm(), 1e-15) << position;
+      EXPECT_LT((vector_of(at) - there).norm(), 1e-14 * (1 + position)) << position;
+      EXPECT_LT((vector_of(axis) - along).norm(), 1e-15) << position;
     }
 }
 

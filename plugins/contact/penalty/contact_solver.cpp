@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vectors.hpp"
+#include "plugins/common/lanes/vectors.hpp"
 
 namespace muro::penalty {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "muro/toolkit/rotations.hpp"
-#include "vectors.hpp"
+#include "plugins/common/lanes/vectors.hpp"
 
 namespace muro::penalty {
 namespace {

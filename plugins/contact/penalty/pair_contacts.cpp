@@ -6,7 +6,7 @@
 
 #include "overlap.hpp"
 #include "plugins/common/contact_geometry/contact_patches.hpp"
-#include "vectors.hpp"
+#include "plugins/common/lanes/vectors.hpp"
 
 namespace muro::penalty {
 std::size_t PairContacts::begin(const StepContext& context, const std::vector<std::uint8_t>& flags) {

@@ -5,8 +5,8 @@
 
 #include "pair_contacts.hpp"
 #include "plugins/common/contact_geometry/contact_load.hpp"
+#include "plugins/common/lanes/vectors.hpp"
 #include "plugins/common/text/quote.hpp"
-#include "vectors.hpp"
 
 namespace muro::penalty {
 namespace {

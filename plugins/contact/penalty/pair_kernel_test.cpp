@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "muro/scene.hpp"
-#include "vectors.hpp"
+#include "plugins/common/lanes/vectors.hpp"
 
 namespace muro::penalty {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Where contacts act in the middle of a step, on bodies that move on until then.
 #include "pair_contacts.hpp"
+#include "plugins/common/lanes/vectors.hpp"
 #include "rolling_point.hpp"
-#include "vectors.hpp"
 
 namespace muro::penalty {
 

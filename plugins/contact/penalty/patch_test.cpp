@@ -5,7 +5,7 @@
 
 #include "friction_anchor.hpp"
 #include "patch.hpp"
-#include "vectors.hpp"
+#include "plugins/common/lanes/vectors.hpp"
 
 namespace muro::penalty {
 namespace {
@@ -14,7 +14,7 @@ using Patch = law::Patch<double>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-using penalty::plain;
+using muro::plain;
 law::Symmetric<double> plain(const Mat3& m) { return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}; }
 Mat3 matrix_of(const law::Symmetric<double>& m) {
   return (Mat3() << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz).finished();

@@ -13,9 +13,9 @@
 #include "muro/scene.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/contact_geometry/pressure_cells.hpp"
+#include "plugins/common/lanes/vectors.hpp"
 #include "restitution.hpp"
 #include "scenery_kernel.hpp"
-#include "vectors.hpp"
 
 namespace muro::penalty {
 namespace {

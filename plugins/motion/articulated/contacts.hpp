@@ -208,22 +208,23 @@ class Contacts {
       ContactSlot<S>& slot = work_.contacts[work_.contact_count++];
       slot.body = body, slot.which = 0;
       const KernelContact* of_robot[count_of<S>];
-      for (int i = 0; alike_ && i < count_of<S>; ++i) {
-        of_robot[i] = next[i]++;
-        slot.wrench.at[i] = wrench[i], wrench[i] += 6;
-      }
       if (alike_) {
+        for (int i = 0; i < count_of<S>; ++i) {
+          of_robot[i] = next[i]++;
+          slot.wrench.at[i] = wrench[i], wrench[i] += 6;
+        }
         slot.which = lane::all_lanes<S>;
         body_of_next[0] = next[0] == end[0] ? none : next[0]->body;
-      }
-      for (int i = 0; !alike_ && i < count_of<S>; ++i) {
-        const bool has_one = body_of_next[i] == body;
-        of_robot[i] = has_one ? next[i] : &no_kernel_contact;
-        slot.wrench.at[i] = wrench[i];
-        slot.which |= unsigned(has_one) << i;
-        if (!has_one) continue;
-        wrench[i] += 6;
-        body_of_next[i] = ++next[i] == end[i] ? none : next[i]->body;
+      } else {
+        for (int i = 0; i < count_of<S>; ++i) {
+          const bool has_one = body_of_next[i] == body;
+          of_robot[i] = has_one ? next[i] : &no_kernel_contact;
+          slot.wrench.at[i] = wrench[i];
+          slot.which |= unsigned(has_one) << i;
+          if (!has_one) continue;
+          wrench[i] += 6;
+          body_of_next[i] = ++next[i] == end[i] ? none : next[i]->body;
+        }
       }
       if (is_first) {
         const BodyStep<S>& b = work_.bodies[body];

@@ -259,11 +259,11 @@ void Robot::prepare(double dt) {
   state_.is_pushed = contacts_.touches_robots() || !self_contacts_.contacts().empty();
   if (contact_wrenches_.size() < 6 * contact_count()) contact_wrenches_.resize(2 * 6 * contact_count());
   state_.contact_wrenches = contact_count() > 0 ? contact_wrenches_.data() : nullptr;
-  fetch_touching_links();
+  fetch_contacts();
 }
 
 /// From memory, early: what the kernel and export_contacts() will need.
-void Robot::fetch_touching_links() const {
+void Robot::fetch_contacts() const {
   constexpr std::size_t line = 64 / sizeof(double);
   for (const KernelContact& contact : contacts_.contacts()) {
     __builtin_prefetch(contact.place);
@@ -316,12 +316,9 @@ void Robot::take_impacts(const Step& step) {
   const ImpactCorrection* const correction = impacts_.begin_step(step);
   if (!correction) return;
   const Inertia& inertia = rigid_.bodies.front().inertia;
-  const auto plain = [](const Mat3& m) {
-    return lane::M3<double>{{m(0, 0), m(1, 0), m(2, 0)}, {m(0, 1), m(1, 1), m(2, 1)}, {m(0, 2), m(1, 2), m(2, 2)}};
-  };
-  const lane::Mass<double> mass{lane::splat<double>(inertia.com), {0, 0, 0}, plain(inertia.tensor())};
-  contact_geometry::correct_path(state_.pose, state_.twist, mass, plain(inertia.tensor().inverse()), 1 / inertia.mass,
-                                 *correction);
+  const lane::Mass<double> mass{lane::splat<double>(inertia.com), {0, 0, 0}, columns_of(inertia.tensor())};
+  contact_geometry::correct_path(state_.pose, state_.twist, mass, columns_of(inertia.tensor().inverse()),
+                                 1 / inertia.mass, *correction);
 }
 
 /// Those from number `first` on of links that touched in the last step, and now perhaps do not.
@@ -335,7 +332,7 @@ Wrench Robot::sum_of_contacts(std::size_t begin, std::size_t end, const Vec3& or
   using lane::V3;
   const KernelContact* contact = contacts_.contacts().data() + begin;
   const double* n = contact_wrenches_.data() + 6 * begin;
-  const V3<double> o = lane::splat<double>(origin);
+  const V3<double> o = plain(origin);
   V3<double> sum{0, 0, 0}, torque{0, 0, 0};
   for (; begin < end; ++begin, ++contact, n += 6) {
     const V3<double> force{n[0], n[1], n[2]}, moment{n[3], n[4], n[5]};
@@ -343,7 +340,7 @@ Wrench Robot::sum_of_contacts(std::size_t begin, std::size_t end, const Vec3& or
     torque += cross(lane::splat<double>(contact->place) - o, force);
     torque += moment;
   }
-  return {{sum.x, sum.y, sum.z}, {torque.x, torque.y, torque.z}};
+  return {vector_of(sum), vector_of(torque)};
 }
 
 void Robot::export_contacts() {

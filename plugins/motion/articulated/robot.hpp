@@ -88,7 +88,7 @@ class Robot {
   void advance_targets(double dt);
   void sum_wrenches();
   void add_self_contacts(double dt);
-  void fetch_touching_links() const;
+  void fetch_contacts() const;
   void clear_contact_wrenches(std::size_t first);
   void export_self_contacts();
   Wrench wrench_of_contact(std::size_t i) const {

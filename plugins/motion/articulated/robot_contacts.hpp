@@ -58,8 +58,6 @@ class RobotContacts {
   bool touches_robots() const { return touches_robots_; }
   /// That of the list which contact `i` is.
   const Contact& contact(std::size_t i) const { return (*list_)[places_[i].in_list]; }
-  /// m, world.
-  Vec3 point(std::size_t i) const { return Vec3::Map(contacts_[i].place); }
   /// Contacts of one loaded link, which follow each other.
   struct OfLink {
     std::uint32_t link = 0, end = 0;  ///< the first of the next link

@@ -36,8 +36,8 @@ class Articulation {
     lane::Places<double, double> pose_at{{robot.pose}}, twist_at{{robot.twist}};
     lane::PoseOf<double> pose = lane::load_pose(lane::as_read(pose_at));
     lane::TwistOf<double> twist = lane::load_twist(lane::as_read(twist_at));
-    integrator::move_base<true>(pose, twist, plain(external.force), plain(external.torque), plain(before_),
-                                plain(state_), plain(Mat3(0.5 * (inverse_before_ + inverse_))), plain(inverse_),
+    integrator::move_base<true>(pose, twist, plain(external.force), plain(external.torque), mass_of(before_),
+                                mass_of(state_), columns_of(0.5 * (inverse_before_ + inverse_)), columns_of(inverse_),
                                 batch.mass->inverse_mass, lane::splat<double>(batch.gravity), batch.dt);
     lane::store_pose(pose_at, 0, pose);
     lane::store_twist(twist_at, 0, twist);
@@ -47,16 +47,12 @@ class Articulation {
 
   /// See simplified::correct_path; after move_base.
   void correct_path(const RobotState& robot, double inverse_mass, const ImpactCorrection& impact) const {
-    simplified::correct_path(robot.pose, robot.twist, plain(state_), plain(inverse_), inverse_mass, impact);
+    simplified::correct_path(robot.pose, robot.twist, mass_of(state_), columns_of(inverse_), inverse_mass, impact);
   }
 
  private:
-  using Vector = lane::V3<double>;
-  using Matrix = lane::M3<double>;
-  static Vector plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-  static Matrix plain(const Mat3& m) { return {plain(Vec3(m.col(0))), plain(Vec3(m.col(1))), plain(Vec3(m.col(2)))}; }
-  static integrator::Mass<double> plain(const MassState& m) {
-    return {plain(m.com), plain(m.com_velocity), plain(m.tensor)};
+  static integrator::Mass<double> mass_of(const MassState& m) {
+    return {plain(m.com), plain(m.com_velocity), columns_of(m.tensor)};
   }
 
   /// Brings the mass state up to the present joint state, if it is of another one.

@@ -65,7 +65,7 @@ CompositeBody::CompositeBody(std::span<const Link> links, std::span<const Inerti
   }
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& g = groups_[i];
-    g.mass = of_groups[i].mass, g.com = plain(of_groups[i].com), g.tensor = plain(of_groups[i].tensor());
+    g.mass = of_groups[i].mass, g.com = plain(of_groups[i].com), g.tensor = columns_of(of_groups[i].tensor());
     mass_ += g.mass;
   }
 }
@@ -93,11 +93,7 @@ MassState CompositeBody::state(std::span<const double> positions, std::span<cons
   }
   const Vector com = moment * (1 / mass_), velocity = momentum * (1 / mass_);
   add_point(-mass_, com, tensor);
-  MassState s;
-  s.com = Vec3(com.x, com.y, com.z), s.com_velocity = Vec3(velocity.x, velocity.y, velocity.z);
-  s.tensor << tensor.x.x, tensor.y.x, tensor.z.x, tensor.x.y, tensor.y.y, tensor.z.y, tensor.x.z, tensor.y.z,
-      tensor.z.z;
-  return s;
+  return {vector_of(com), vector_of(velocity), matrix_of(tensor)};
 }
 
 }  // namespace muro::simplified

@@ -2,7 +2,6 @@
 #include "decoupled_dynamics.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 
 #include "composite_body.hpp"
 
@@ -100,10 +99,7 @@ void DecoupledDynamics::find_places(std::span<const double> positions) {
   tensor_ = all.second_moment;
   add_point(-mass_, centre_, tensor_);
   if (fixed_base_) return;
-  Mat3 tensor;
-  tensor << tensor_.x.x, tensor_.y.x, tensor_.z.x, tensor_.x.y, tensor_.y.y, tensor_.z.y, tensor_.x.z, tensor_.y.z,
-      tensor_.z.z;
-  inverse_ = plain(Mat3(tensor.inverse()));
+  inverse_ = columns_of(matrix_of(tensor_).inverse());
 }
 
 /// `force`, `torque` on the whole robot at the base's origin, `spin` of the base; axes of the base.
@@ -173,7 +169,7 @@ Wrench DecoupledDynamics::update(const Pose& pose, const Twist& twist, std::span
                                  const Vec3& gravity) {
   for (Body& b : bodies_) b.force = b.torque = {0, 0, 0};
   if (!all_constant_) find_places(positions);
-  const Matrix axes = plain(pose.orientation.toRotationMatrix());
+  const Matrix axes = columns_of(pose.orientation.toRotationMatrix());
   Vector force{0, 0, 0}, torque{0, 0, 0};
   for (const AppliedWrench& w : wrenches_) {
     if (w.wrench.size() == 0) continue;
@@ -191,8 +187,7 @@ Wrench DecoupledDynamics::update(const Pose& pose, const Twist& twist, std::span
   sum_forces();
   for (std::size_t k = 0; k < dofs_.size(); ++k)
     if (moved_[k].empty()) project_onto(dofs_[k]);
-  const Vector f = axes * force, t = axes * torque;
-  return {{f.x, f.y, f.z}, {t.x, t.y, t.z}};
+  return {vector_of(axes * force), vector_of(axes * torque)};
 }
 
 }  // namespace muro::simplified
