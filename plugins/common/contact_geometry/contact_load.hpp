@@ -10,6 +10,8 @@ namespace muro::contact_geometry {
 inline constexpr double standard_gravity = 9.80665;
 /// s: what a contact has borne in the mean of this time it is made stiff for, where that is more than bodies weigh.
 inline constexpr double load_mean_over = 0.1;
+/// It is made stiff for so many times what bodies weigh at most.
+inline constexpr double most_weights = 100;
 
 inline namespace MURO_ISA {
 

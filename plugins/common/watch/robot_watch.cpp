@@ -123,11 +123,14 @@ void RobotWatch::tell_depth(double time, Surroundings& surroundings) {
     const auto found = surroundings.obstacles.find(index_of(id));
     return found == surroundings.obstacles.end() ? quote(name_) : quote(found->second.name);
   };
-  surroundings.host->log(LogLevel::warning,
-                         name_of(deepest->self) + " stands " + millimetres(deepest->depth) + " deep in " +
-                             name_of(deepest->other) +
-                             ": contacts are too soft for what they bear at this rate; try a higher rate or a "
-                             "higher `frequency` of contacts, or another motion (told once)");
+  const auto touched = surroundings.obstacles.find(index_of(deepest->other));
+  const bool is_scenery = touched == surroundings.obstacles.end() || touched->second.is_scenery;
+  surroundings.host->log(
+      LogLevel::warning,
+      name_of(deepest->self) + " stands " + millimetres(deepest->depth) + " deep in " + name_of(deepest->other) +
+          ": contacts are too soft for what they bear at this rate; try a higher rate or a "
+          "higher `frequency` of contacts, or another motion" +
+          (is_scenery ? "" : "; what no force moves squeezes whatever its commands say") + " (told once)");
 }
 
 std::string RobotWatch::problem(const Pose& pose, const Twist& twist, const Surroundings& surroundings) {

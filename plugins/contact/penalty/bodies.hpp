@@ -108,6 +108,8 @@ struct Bodies {
 
   const Body& operator[](ObjectId id) const { return all[index_of(id)]; }
   const DynamicBody& base_of(const Robot& robot) const { return dynamic_bodies[robot.first_body]; }
+  /// Whether the body is of a robot; else it is scenery.
+  bool moves(ObjectId id) const { return bool((*this)[id].twist); }
   /// Of a point of a body, m/s.
   Vec3 velocity(ObjectId id, const Vec3& point) const {
     const Body& body = (*this)[id];

@@ -11,14 +11,12 @@
 namespace muro::penalty {
 namespace {
 
-using contact_geometry::load_mean_over, contact_geometry::standard_gravity;
+using contact_geometry::load_mean_over, contact_geometry::most_weights, contact_geometry::standard_gravity;
 
 /// Robots whose masses differ by more are solved together.
 constexpr double similar_masses = 3;
 /// A normal that rises more steeply belongs to a contact that carries: 17 degrees, its sine.
 constexpr double rising = 0.3;
-/// What drives press is so many times the mass of a group at most.
-constexpr double most_pressed = 1000;
 
 /// Whether the motion of the robot leaves its contacts with scenery to this algorithm.
 bool is_resolved_here(const Robot& robot) { return contact_algorithm_resolves(*robot.world, kinematic_world); }
@@ -258,7 +256,9 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     const Vec3 displacement = Vec3::Map(point.displacement);
     const bool holds_own = has_joints(self), holds_other = has_joints(c.other_robot),
                is_pressed = holds_own || holds_other;
-    const double pressed = is_pressed ? std::min(c.solved.mean_load / standard_gravity, most_pressed * mass) : 0;
+    // what moves by itself presses as hard as its contact is stiff: a harder one would be pressed harder
+    const bool learns = is_pressed && (c.other_robot != no_robot || !bodies_.moves(contact.other));
+    const double pressed = learns ? std::min(c.solved.mean_load / standard_gravity, most_weights * mass) : 0;
     const double carried = std::max(part * mass, pressed);
     const double stiffness = carried * omega * omega, held = 2 * carried * omega + context_.stiffness.h * stiffness;
     s.along = held;

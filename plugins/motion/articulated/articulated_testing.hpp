@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "muro/toolkit/rotations.hpp"
 #include "tests/support/bodies.hpp"
 
@@ -15,7 +17,13 @@ using Parameters = std::map<std::string, ParameterInput>;
 struct World : test::Scene {
   /// All robots so far, at 1 kHz.
   void start(Parameters parameters = {}, double rate = 1000) {
+    start(
+        std::move(parameters), [] {}, rate);
+  }
+  /// `add_others`: adds what this motion does not move.
+  void start(Parameters parameters, const std::function<void()>& add_others, double rate = 1000) {
     use("motion.articulated", rate, all_robots(), std::move(parameters));
+    add_others();
     use_contacts();
     build();
   }

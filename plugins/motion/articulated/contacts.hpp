@@ -127,7 +127,12 @@ class Contacts {
   MURO_INLINE void find_what_it_bears(ContactSlot<S>& slot) const {
     const S borne = slot.mean_load, own = S(standard_gravity) * law_.mass;
     slot.bears_more = any(borne > own);
-    if (slot.bears_more) slot.more = max(borne / own, S(1));
+    if (slot.bears_more) slot.more = min(max(borne / own, S(1)), S(contact_geometry::most_weights));
+  }
+  /// What moves by itself presses as hard as its contact is stiff: a harder one would be pressed harder.
+  void forget_what_squeezes(const KernelContact* const (&of_robot)[count_of<S>], ContactSlot<S>& slot) const {
+    for (int i = 0; i < count_of<S>; ++i)
+      if (of_robot[i]->other) set(slot.mean_load, i, 0);
   }
   MURO_INLINE const ContactLaw<S>& law_of(const ContactSlot<S>& slot) {
     return slot.bears_more ? law_of_more(slot.more) : law_;
@@ -266,6 +271,7 @@ class Contacts {
     const V3<S> point{at[0], at[1], at[2]};
     const S load = before[9];
     slot.mean_load = before[10];
+    if (traits & KernelContact::is_moved) forget_what_squeezes(of_robot, slot);
     find_what_it_bears(slot);
     const ContactLaw<S>& law = law_of(slot);
     const V3<S> arm = transposed_times(body.axes, point - body.origin);

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parts that two fingers hold by friction alone, and the cones of friction.
-#include <fstream>
-#include <sstream>
-
 #include "tests/conformance/motion/case.hpp"
-#include "tests/support/files.hpp"
+#include "tests/conformance/motion/recorded_contacts.hpp"
 
 namespace muro::conformance {
 
@@ -119,22 +116,10 @@ Outcome drops_part(const std::string& motion) {
 
 /// By how much recorded contacts leave the cone of friction, of what it bears; of normal forces that are less than
 /// `least` (N), of that.
-double out_of_cone(Simulation& simulation, const std::function<void()>& run, double least) {
-  const test::ScratchFolder folder;
-  const std::string file = folder.path("contacts.csv");
-  simulation.use("recorder.contacts", 1000, {}, {{"file", file}});
-  run();
-  simulation.finish();
-  std::ifstream lines(file);
-  std::string line;
-  std::getline(lines, line);
+double out_of_cone(Trial& trial, const std::function<void()>& run, double least) {
   double worst = 0;
-  while (std::getline(lines, line)) {
-    std::istringstream fields(line);
-    std::vector<double> f;
-    for (std::string field; std::getline(fields, field, ',');) f.push_back(std::strtod(field.c_str(), nullptr));
-    const Vec3 normal(f[6], f[7], f[8]), force(f[10], f[11], f[12]);
-    const double pressure = force.dot(normal), tangential = (force - normal * pressure).norm();
+  for (const RecordedContact& c : recorded_contacts(trial, run)) {
+    const double pressure = c.force.dot(c.normal), tangential = (c.force - c.normal * pressure).norm();
     worst = std::max(worst, (tangential - grip_friction * pressure) / (grip_friction * std::max(pressure, least)));
   }
   return worst;

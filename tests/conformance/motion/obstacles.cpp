@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Robots that commands move, among robots that forces move.
 #include "tests/conformance/motion/case.hpp"
+#include "tests/conformance/motion/recorded_contacts.hpp"
 
 namespace muro::conformance {
 
@@ -73,6 +74,52 @@ Outcome is_blocked(const std::string& motion) {
   return {past + (m.pose(wall).position - Vec3(0.5, 0, 0.5)).norm(), text(m.pose(r).position.x()) + " m of 0.35"};
 }
 
+/// How fast a part of 2 kg with a foot of 0.2 kg becomes, and how hard a contact, while two plates, tilted against each
+/// other, squeeze the foot from above and below by 2 mm each, move to and fro for 2 s, and let it go at 0.5 m/s.
+Outcome squeezes(const std::string& motion) {
+  constexpr double size = 0.04, thickness = 0.02, tilt = 0.05, squeeze = 0.002;
+  ObstacleTrial m(motion);
+  const Shape shape = with(Shape::box({size, size, size}), 0.5);
+  const RobotView& part = m.add("part", test::tree_of([&](RobotBuilder& b) {
+                                  b.base("trunk");
+                                  b.set(keys::inertial, solid_box(2, {0.1, 0.1, 0.1}));
+                                  b.translation({0.15, 0, 0});
+                                  b.revolute("ankle", Vec3::UnitY(), {.velocity = 10, .effort = 20});
+                                  b.body("foot");
+                                  b.set(keys::inertial, solid_box(0.2, {size, size, size}));
+                                  b.set_array(keys::collision_shapes, std::span<const Shape>(&shape, 1));
+                                }),
+                                {{-0.15, 0, 1}, Quat::Identity()});
+  m.test_those();
+  const RobotView* plates[2];
+  for (const int i : {0, 1}) {
+    const double side = i == 0 ? 1 : -1;
+    const double height = 0.5 * (size + thickness) + 0.5 * size * std::sin(tilt);
+    plates[i] = &m.add(i == 0 ? "above" : "below", block(1, {0.2, 0.2, thickness}, 0.5),
+                       {{0, 0, 1 + side * height}, Quat(Eigen::AngleAxisd(side * tilt, Vec3::UnitY()))});
+  }
+  double fastest = 0, hardest = 0;
+  const auto go_on = [&](double seconds, double closing, double across) {
+    for (const int i : {0, 1}) {
+      const Vec3 v(across, 0, i == 0 ? -closing : closing);
+      m.world().value(plates[i]->base(), keys::command_twist) = {m.pose(*plates[i]).orientation.conjugate() * v,
+                                                                 Vec3::Zero()};
+    }
+    for (double t = 0; t < seconds - 1e-9; t += 1e-3) {
+      m.run_for(1e-3);
+      fastest = std::max(fastest, m.twist(part).linear.norm());
+    }
+  };
+  const auto contacts = recorded_contacts(m, [&] {
+    m.begin();
+    go_on(0.02, squeeze / 0.02, 0);
+    for (int i = 0; i < 20; ++i) go_on(0.1, i % 2 ? 0.01 : -0.01, i % 2 ? 0.05 : -0.05);
+    go_on(0.05, -0.5, 0);
+  });
+  for (const RecordedContact& c : contacts) hardest = std::max(hardest, c.force.norm());
+  return {std::max(fastest, hardest / 1000), text(fastest) + " m/s, " + text(hardest) + " N"};
+}
+
 }  // namespace
 
 std::vector<Case> obstacle_cases() {
@@ -81,6 +128,8 @@ std::vector<Case> obstacle_cases() {
       {"a robot that commands move pushes a box at its speed", "m/s, m", needs | feature_friction, 5e-3, pushes},
       {"a moving plate drags a block with mu g", "relative", needs | feature_friction, 2e-2, drags_with_friction},
       {"a moving plate takes a block along", "relative", needs | feature_friction, 1e-3, drags_along},
+      {"what moving plates squeeze is not thrown", "of 1 m/s, 1 kN", needs | feature_friction | feature_joints, 1,
+       squeezes},
       {"a robot that stands still stops a ball and stays", "m", needs, 2e-3, is_blocked},
   };
 }
