@@ -41,9 +41,9 @@ void Bodies::connect(Connector& c) {
 /// One link rests 0.2 mm deep where steps are long. A robot with joints presses with its drives, not with the weight
 /// of the link that touches: it is solved as soon as a contact lasts deeper than it should.
 bool Bodies::is_solved_alone(const StepContext& context, std::uint32_t number) const {
-  constexpr double soft = 0.75, deep = 2e-4, very_deep = 1e-3, slow = 0.01;  // m, m/s
+  constexpr double deep = 2e-4, very_deep = 1e-3, slow = 0.01;  // m, m/s
   const Robot& robot = robots[number];
-  if (robot.is_one_link) return context.stiffness.omega < soft * context.omega;
+  if (robot.is_one_link) return is_soft(context);
   if (robot.is_single_body) return false;
   if (!(*robot.solved).empty()) return true;
   return std::any_of((*robot.contacts).begin(), (*robot.contacts).end(), [&](const Contact& c) {

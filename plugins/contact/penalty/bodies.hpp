@@ -85,6 +85,12 @@ struct StepContext {
   double correcting_speed = 0;  ///< m/s: overlap that no motion has made is taken back at it
 };
 
+/// Whether steps are so long that springs by themselves are much softer than they are to be.
+inline bool is_soft(const StepContext& context) {
+  constexpr double soft = 0.75;
+  return context.stiffness.omega < soft * context.omega;
+}
+
 struct Bodies {
   std::vector<Body> all;                              ///< by object id
   std::vector<contact_geometry::ShapeExtent> shapes;  ///< of all bodies
@@ -128,8 +134,8 @@ struct Bodies {
     const Robot& r = robots[std::size_t(robot)];
     return r.impact_step && *r.lag == 0 ? *r.impact_step : 0;
   }
-  /// Whether what a robot touches is solved at once even where it touches scenery alone: springs by themselves would be
-  /// much softer than they are to be. `robot`: in `robots`.
+  /// Whether what a robot touches is solved at once even where it touches scenery alone: it is one link, and steps are
+  /// long, or legs carry it. `robot`: in `robots`.
   bool is_solved_alone(const StepContext& context, std::uint32_t robot) const;
   void clear_wrenches(std::uint32_t robot) const {
     const Robot& r = robots[robot];

@@ -66,13 +66,14 @@ void SceneryContacts::start() {
   robots_.assign(bodies_.robots.size(), {});
   identities_.resize(bodies_.robots.size());
   contacts_.resize(bodies_.robots.size());
-  remaining_.resize(bodies_.robots.size());
+  remaining_.assign(bodies_.robots.size(), 1);
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const Robot& r = bodies_.robots[i];
     KnownRobot& known = robots_[i];
     const DynamicBody& base = bodies_.base_of(r);
     known.list = r.contacts, known.anchors = r.anchors;
     known.world = r.world.get(), known.lag = r.is_single_body ? r.lag.get() : nullptr;
+    known.is_one_link = r.is_one_link, known.may_resist_turning = bool(r.turning_springs);
     known.view.contacts = contacts_[i].data();
     known.view.in_order = true;
     known.view.base_pose = base.pose->position.data();
@@ -105,7 +106,7 @@ void SceneryContacts::apply_forces(const StepContext& context, Range block) {
 
 /// Prefetches the data of a robot that is processed soon: in large teams it is not in a near cache.
 void SceneryContacts::fetch(std::uint32_t robot) const {
-  constexpr std::size_t line = 64, contacts = 4;  // of a vehicle
+  constexpr std::size_t line = 64, bodies = 4, contacts = 2 * bodies;  // of a vehicle
   const KnownRobot& known = robots_[robot];
   const auto fetch_lines = [](const void* from, std::size_t bytes) {
     for (std::size_t i = 0; i < bytes; i += line) __builtin_prefetch(static_cast<const char*>(from) + i);
@@ -115,16 +116,18 @@ void SceneryContacts::fetch(std::uint32_t robot) const {
   const KernelContacts& before = contacts_[robot];  // their bodies lie side by side
   if (known.contacts == 0) return;
   fetch_lines(before.data(), contacts * sizeof(KernelContact));
-  fetch_lines(before[0].pose, contacts * sizeof(Pose));
-  fetch_lines(before[0].twist, contacts * sizeof(Twist));
+  fetch_lines(before[0].pose, bodies * sizeof(Pose));
+  fetch_lines(before[0].twist, bodies * sizeof(Twist));
 }
 
 void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t robot, Queues& queues) {
   KnownRobot& known = robots_[robot];
   const auto contacts = *known.list;
   if (bodies_.tells_contacts) bodies_.robots[robot].told.clear();
-  if (remaining_[robot] != 0) remaining_[robot] = 0;  // avoids a write: other threads have flags in the same cache line
-  if (const Out<double>& carried = bodies_.robots[robot].carried_mass; carried && *carried != 0) *carried = 0;
+  if (remaining_[robot] != 0) {  // avoids a write: other threads have flags in the same cache line
+    remaining_[robot] = 0;
+    if (const Out<double>& carried = bodies_.robots[robot].carried_mass) *carried = 0;
+  }
   const bool by_contact_algorithm = contact_algorithm_resolves(*known.world, kinematic_world);
   // It touches nothing, only reports what it touches, or its motion answers for all of that.
   if (contacts.empty() || !is_moved_by_forces(*known.world) ||
@@ -147,7 +150,7 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
     if (!knows(robot, contacts)) analyse(robot, contacts);
     known.revision = known.list.revision();
   }
-  if (!known.only_scenery || bodies_.is_solved_alone(context, robot)) {
+  if (!known.only_scenery || (known.is_one_link && is_soft(context))) {
     remaining_[robot] = 1;
     return;
   }
@@ -175,8 +178,9 @@ bool SceneryContacts::touches_robots(std::uint32_t robot, std::span<const Contac
 
 /// Nothing that it touches resists its turning.
 void SceneryContacts::forget_turning(std::uint32_t robot) const {
+  if (!robots_[robot].may_resist_turning) return;
   const ListOut<TurningSpring>& springs = bodies_.robots[robot].turning_springs;
-  if (springs && !(*springs).empty()) springs.clear();
+  if (!(*springs).empty()) springs.clear();
 }
 
 void SceneryContacts::analyse(std::uint32_t robot, std::span<const Contact> contacts) {

@@ -41,6 +41,7 @@ class SceneryContacts {
     std::uint64_t robots_revision = ~std::uint64_t{0};  ///< of the list, when it was last looked at for robots
     std::size_t robots_length = 0;                      ///< the same
     bool touches_robots = false;
+    bool is_one_link = false, may_resist_turning = false;
     bool is_clear = false;  ///< no wrench acts on it, and it has no anchors
     bool only_scenery = false;
     bool anchors_match = false;  ///< the robot has an anchor for each contact, in their order
