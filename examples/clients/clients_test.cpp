@@ -136,6 +136,7 @@ with Client(sys.argv[1]) as muro:
     assert times == [100 * i for i in range(10)], times
     assert muro.get("rover/base_link:command.twist")[0] == 0.25
     assert len(muro.get("rover/*_joint:joint.velocity")) == 4
+    assert muro.get_array("rover/laser:ranges").tolist() == muro.get("rover/laser:ranges")
     try:
         muro.set("rover/base_link:command.twist", {"vx": 1}, unit="km/h")
         assert False

@@ -22,11 +22,16 @@ As a library:
 """
 
 import argparse
+import base64
 import json
 import os
 import socket
 import ssl
 import sys
+
+
+# What the module `struct` calls them.
+NUMBERS = {"float64": "d", "float32": "f", "int64": "q", "uint64": "Q", "int32": "i", "uint32": "I", "uint8": "B"}
 
 
 class MuroError(Exception):
@@ -119,6 +124,12 @@ class Client:
         is_one = len(properties) == 1 and not set("*?") & set(properties[0])
         return next(iter(values.values())) if is_one else values
 
+    def get_array(self, name):
+        """The numbers of a property that is an array or a list, one after the other: a picture, or ranges, without text on
+        the way. numpy.asarray takes it as it is."""
+        value = self.call("get", properties=name, encoding="base64")["values"].popitem()[1]
+        return memoryview(base64.b64decode(value["base64"])).cast(NUMBERS[value["type"]])
+
     def set(self, name, value, **more):
         """Sets a property: a number, an array of all columns, or a dictionary of some. `element`, `unit`: optional."""
         return self.call("set", property=name, value=value, **more)
@@ -160,7 +171,10 @@ def run(muro, options):
     elif options.command == "set":
         yield muro.set(options.property, value_of(options.value))
     elif options.command == "call":
-        yield muro.call(options.method, **value_of(options.params))
+        params = value_of(options.params)
+        if options.method in ("pause", "step"):
+            params.setdefault("keep", True)  # this client goes at once, and the pause would go with it
+        yield muro.call(options.method, **params)
     elif options.command == "watch":
         timing = {"on_change": True} if options.on_change else {"rate": options.rate}
         muro.subscribe(*options.properties, **timing)

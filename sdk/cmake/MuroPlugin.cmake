@@ -28,10 +28,7 @@ function(muro_add_plugin)
   target_link_libraries(${ARG_NAME} PRIVATE muro::sdk ${ARG_LIBRARIES})
   target_link_options(${ARG_NAME} PRIVATE LINKER:--version-script=${CMAKE_CURRENT_FUNCTION_LIST_DIR}/plugin_exports.map
                       LINKER:--exclude-libs,ALL)
-  # The run-time library of a sanitizer is found when the program is loaded, so its symbols stay open.
-  if(NOT CMAKE_CXX_FLAGS MATCHES "fsanitize" AND NOT MURO_SANITIZE)
-    target_link_options(${ARG_NAME} PRIVATE LINKER:-z,defs)
-  endif()
+  _muro_refuse_undefined(${ARG_NAME})
   set_target_properties(
     ${ARG_NAME}
     PROPERTIES PREFIX ""
@@ -132,6 +129,7 @@ function(muro_add_controller)
   _muro_optimise(${ARG_NAME})
   target_link_libraries(${ARG_NAME} PRIVATE muro::controller ${ARG_LIBRARIES})
   target_link_options(${ARG_NAME} PRIVATE LINKER:-Bsymbolic)
+  _muro_refuse_undefined(${ARG_NAME})
   set_target_properties(
     ${ARG_NAME}
     PROPERTIES PREFIX ""
@@ -140,6 +138,14 @@ function(muro_add_controller)
                CXX_VISIBILITY_PRESET hidden
                LIBRARY_OUTPUT_DIRECTORY ${ARG_OUTPUT_DIRECTORY})
   set_property(GLOBAL APPEND PROPERTY MURO_CONTROLLERS ${ARG_NAME})
+endfunction()
+
+# What no library has is an error of the build, not of the run that loads it: a process of its own lacks what muro has.
+# The run-time library of a sanitizer is found when the program is loaded, so its symbols stay open.
+function(_muro_refuse_undefined TARGET)
+  if(NOT CMAKE_CXX_FLAGS MATCHES "fsanitize" AND NOT MURO_SANITIZE)
+    target_link_options(${TARGET} PRIVATE LINKER:-z,defs)
+  endif()
 endfunction()
 
 # Where a project sets no build type and no -O, CMake compiles without optimisation: steps take up to 100 times as long.

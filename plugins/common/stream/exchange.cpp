@@ -37,8 +37,9 @@ std::shared_ptr<Client> Exchange::connected() {
 
 bool Exchange::has_room(Client& client) {
   const std::lock_guard lock(mutex_);
-  if (client.generation != generation_) return true;
-  const bool has = client.messages_waiting < limits_.input_messages && client.bytes_waiting < limits_.input_bytes;
+  if (client.generation != generation_ && !client.is_held) return true;
+  const bool has =
+      !client.is_held && client.messages_waiting < limits_.input_messages && client.bytes_waiting < limits_.input_bytes;
   is_waited_for_ |= !has;
   statistics_.held_back += has ? 0 : 1;
   return has;
@@ -133,7 +134,7 @@ bool Exchange::collect(Inbox& inbox) {
   return std::exchange(is_waited_for_, false);
 }
 
-Client* Exchange::find(std::uint32_t number) {
+Client* Exchange::find(std::uint32_t number) const {
   for (const auto& client : clients_)
     if (client->number == number) return client.get();
   return nullptr;
@@ -156,11 +157,23 @@ Exchange::Sent Exchange::send(std::uint32_t number, std::string_view bytes, std:
   return client ? queue(*client, bytes, most) : Sent::nothing;
 }
 
+std::size_t Exchange::waiting(std::uint32_t number) const {
+  const std::lock_guard lock(mutex_);
+  const Client* const client = find(number);
+  return client ? client->outgoing.size() + client->sending : 0;
+}
+
 Exchange::Sent Exchange::send_to_all(std::string_view bytes) {
   const std::lock_guard lock(mutex_);
   Sent sent = Sent::nothing;
   for (const auto& client : clients_) sent = std::max(sent, queue(*client, bytes, limits_.output_bytes));
   return sent;
+}
+
+bool Exchange::hold(std::uint32_t number, bool held) {
+  const std::lock_guard lock(mutex_);
+  Client* const client = find(number);
+  return client && std::exchange(client->is_held, held) && !held;
 }
 
 bool Exchange::end(std::uint32_t number) {

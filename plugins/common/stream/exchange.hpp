@@ -45,6 +45,7 @@ struct Client {
   std::string outgoing;              ///< waits for the I/O thread
   std::size_t sending = 0;           ///< bytes that it has taken and not sent yet
   bool is_ending = false;            ///< to be disconnected once all is sent
+  bool is_held = false;              ///< the steps want to hear no more of it for now
   std::uint64_t generation = 0;      ///< of what waits
   std::size_t messages_waiting = 0;  ///< for a step
   std::size_t bytes_waiting = 0;
@@ -82,7 +83,11 @@ class Exchange {
   /// Queues all of it or nothing, where not more than `most` bytes wait then.
   Sent send(std::uint32_t client, std::string_view bytes) { return send(client, bytes, limits_.output_bytes); }
   Sent send(std::uint32_t client, std::string_view bytes, std::size_t most);
+  /// Bytes for the client that have not been sent.
+  std::size_t waiting(std::uint32_t client) const;
   Sent send_to_all(std::string_view bytes);
+  /// No more is read from the client, until it is told otherwise. True: it waits to be read from.
+  bool hold(std::uint32_t client, bool held);
   /// Disconnects the client once all is sent. False: there is none.
   bool end(std::uint32_t client);
   void count_dropped();
@@ -90,7 +95,7 @@ class Exchange {
 
  private:
   Sent queue(Client& client, std::string_view bytes, std::size_t most);
-  Client* find(std::uint32_t number);
+  Client* find(std::uint32_t number) const;
 
   const Limits limits_;
   const std::size_t most_entries_, most_bytes_;

@@ -25,7 +25,13 @@ class LiveStream {
   const Event* next();
   bool send(std::uint32_t client, std::string_view bytes) { return send(client, bytes, limits_.output_bytes); }
   bool send(std::uint32_t client, std::string_view bytes, std::size_t most);
+  std::size_t waiting(std::uint32_t client) const {
+    return address_.is_timed ? output_.waiting() : exchange_.waiting(client);
+  }
   void send_to_all(std::string_view bytes);
+  void hold(std::uint32_t client, bool held) {
+    if (exchange_.hold(client, held)) io_->signal(connections_);
+  }
   void answered();
   void disconnect(std::uint32_t client);
   void set_baud(std::uint32_t baud);

@@ -165,8 +165,12 @@ bool Stream::send(std::uint32_t client, std::string_view bytes) {
 bool Stream::send(std::uint32_t client, std::string_view bytes, std::size_t most) {
   return !impl_->live || impl_->live->send(client, bytes, most);
 }
+std::size_t Stream::waiting(std::uint32_t client) const { return impl_->live ? impl_->live->waiting(client) : 0; }
 void Stream::send_to_all(std::string_view bytes) {
   if (impl_->live) impl_->live->send_to_all(bytes);
+}
+void Stream::hold(std::uint32_t client, bool held) {
+  if (impl_->live) impl_->live->hold(client, held);
 }
 void Stream::answered() {
   if (impl_->live) impl_->live->answered();

@@ -87,8 +87,13 @@ class Stream {
   bool send(std::uint32_t client, std::string_view bytes);
   /// Drops them, and counts them, where more than `most` bytes would wait: the rest of the buffer is for others. [step]
   bool send(std::uint32_t client, std::string_view bytes, std::size_t most);
+  /// Bytes that were sent to the client and have not gone out. [step]
+  std::size_t waiting(std::uint32_t client) const;
   /// To every client. [step]
   void send_to_all(std::string_view bytes);
+  /// What more the client says stays with it, until `held` is false, but for what has been read already: as much as a
+  /// step takes, twice. [step]
+  void hold(std::uint32_t client, bool held);
   /// A message was answered for good, or needs no answer: for lockstep, once for each message. [step]
   void answered();
   /// Measurements keep coming without being asked for one by one: for lockstep. [step]

@@ -47,6 +47,16 @@ TEST(Changing, SetsElementsColumnsAndSeveralPropertiesAtOnce) {
   EXPECT_EQ(d.scene.ranges, (std::vector<double>{1, 2, 3}));
 }
 
+TEST(Changing, AnswersAtOnceWhereThereIsNothingToBeDone) {
+  Dialogue d;
+  d.scene.ranges.clear();
+  EXPECT_EQ(d.say(request("set", R"(["rover:ranges",[]])")),
+            R"({"jsonrpc":"2.0","result":{"time":0,"seconds":0.0},"id":1})"
+            "\n");
+  EXPECT_EQ(d.outlet.answers, 1u);
+  EXPECT_NE(d.say(request("time")), "") << "it goes on";
+}
+
 TEST(Changing, RefusesValuesThatDoNotFit) {
   Dialogue d;
   for (const char* params :

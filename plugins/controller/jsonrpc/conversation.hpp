@@ -29,8 +29,8 @@ struct Pending {
 /// One client with what it has said. Its requests are carried out one after the other, each when the one before it has
 /// been answered.
 struct Conversation {
-  static constexpr std::size_t most_lines = 1024;     ///< that wait
-  static constexpr std::size_t most_bytes = 4 << 20;  ///< in those lines
+  static constexpr std::size_t most_lines = 4096;     ///< that wait
+  static constexpr std::size_t most_bytes = 8 << 20;  ///< in those lines
   static constexpr std::size_t most_subscriptions = 64;
 
   static constexpr int most_failures = 3;  ///< to say the token
@@ -45,6 +45,7 @@ struct Conversation {
   Pending pending;
   std::uint32_t requests = 0;  ///< so far: tickets of the present one have its number
   bool is_active = false;      ///< its requests are being carried out further up the stack
+  bool is_held = false;        ///< it is not read from, since much of it waits
   bool is_over = false;        ///< it is being disconnected: nothing more is done for it
   bool has_left = false;       ///< it says nothing any more, but may read the replies to what it has said
   bool is_idle() const { return is_over || (lines.empty() && !message); }

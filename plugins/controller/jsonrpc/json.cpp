@@ -36,9 +36,9 @@ std::optional<Json> parse(std::string_view text) {
   return value;
 }
 
-std::string line_of(const Reply& message) {
-  return message.dump(-1, ' ', false, Reply::error_handler_t::replace) + "\n";
-}
+std::string text_of(const Reply& message) { return message.dump(-1, ' ', false, Reply::error_handler_t::replace); }
+
+std::string line_of(const Reply& message) { return text_of(message) + "\n"; }
 
 Reply number(double value) {
   if (std::isnan(value)) return "nan";

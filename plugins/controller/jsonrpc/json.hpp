@@ -17,7 +17,9 @@ inline constexpr int deepest_nesting = 32;
 /// Nothing where the text is no JSON (RFC 8259, in UTF-8), or nested deeper than that.
 std::optional<Json> parse(std::string_view text);
 
-/// A line, with its end. What is no UTF-8 is replaced.
+/// What is no UTF-8 is replaced.
+std::string text_of(const Reply& message);
+/// The same as a line, with its end.
 std::string line_of(const Reply& message);
 
 /// JSON has no infinite numbers: they are the texts "inf", "-inf" and "nan". All others come back as the same bits.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Any property and the control of the run for programs outside, by JSON-RPC 2.0; see README.md.
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -40,6 +42,9 @@ constexpr Description description{
 constexpr stream::Limits limits{.output_bytes = 32 << 20, .is_recorded = false, .has_late_replies = true};
 /// Of output that waits, above which updates are dropped: the rest is for replies.
 constexpr std::size_t most_for_updates = 4 << 20;
+/// Of output that waits, above which no request is begun: the rest is for the reply to one message.
+constexpr std::size_t most_for_requests = 12 << 20;
+constexpr auto time_in_a_step = std::chrono::milliseconds(5);
 
 class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
  public:
@@ -54,6 +59,7 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
     inspection_ = Inspection::of(c.host());
     run_ = RunControl::of(c.host());
     inputs_ = ExternalInputs::of(c.host());
+    host_ = &c.host();
     if (!inspection_ || !run_) throw Error("this host lets nobody look at its simulation, or control it");
     stream::Address address = stream::read_address(c, 0, c.parameters().texts("stream"));
     read_tls(c, c.parameters().texts("tls"), address);
@@ -71,6 +77,8 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
     Served served{SceneNames(*inspection_), *run_, read_grants(c, p.texts("write"))};
     for (const RobotView* robot : c.robots()) served.scene.add_robot(std::string(robot->name), robot->base());
     service_.emplace(std::move(served), static_cast<Outlet&>(*this));
+    // in lockstep it is clients that make time go on
+    if (stream_->address().lockstep.empty()) service_->set_time_in_a_step(time_in_a_step);
     constexpr std::string_view poses[] = {"*:pose"};
     const bool is_given = p.given("refresh");
     refresh(c, is_given ? p.texts("refresh") : std::span<const std::string_view>(poses), is_given, service_->scene());
@@ -128,10 +136,23 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
       stream_->poll(run_->time());
       serve_events();
       service_->send_updates();
+      if (const auto pauser = service_->who_keeps_it_waiting()) tell_pause(*pauser);
     } catch (...) {  // there is no memory: what was asked is not answered
     }
   }
 
+  void tell_pause(const Pauser& pauser) {
+    char time[32];
+    std::snprintf(time, sizeof time, "%.3f s", 1e-9 * double(run_->time()));
+    host_->log(LogLevel::info, quote(stream_->name()) + ": the run stands at " + time + ", since client " +
+                                   std::to_string(pauser.client) + " has paused it; it goes on when a client calls " +
+                                   "`resume`" + (pauser.stays ? "" : ", or when that one goes"));
+  }
+
+  bool has_room(std::uint32_t client) const override { return stream_->waiting(client) <= most_for_requests; }
+  bool has_room_for_updates(std::uint32_t client) const override {
+    return stream_->waiting(client) <= most_for_updates;
+  }
   bool send(std::uint32_t client, std::string_view line) override { return stream_->send(client, line); }
   bool send_update(std::uint32_t client, std::string_view line) override {
     return stream_->send(client, line, most_for_updates);
@@ -143,12 +164,14 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
       inputs->not_repeatable("clients of " + quote(stream_->name()) +
                              " have changed the state, and without lockstep the wall clock decides when");
   }
+  void hold(std::uint32_t client, bool held) override { stream_->hold(client, held); }
   void answered() override { stream_->answered(); }
   void disconnect(std::uint32_t client) override { stream_->disconnect(client); }
 
   Inspection* inspection_ = nullptr;
   RunControl* run_ = nullptr;
   ExternalInputs* inputs_ = nullptr;
+  Host* host_ = nullptr;
   bool has_changed_ = false;
   TokenSource token_;
   std::optional<stream::Stream> stream_;

@@ -59,8 +59,16 @@ void Message::add(const Json& entry) {
   if (const auto params = entry.find("params"); params != entry.end()) request.params = *params;
 }
 
+/// As text, which takes a tenth of the memory.
 void Message::add_reply(const Reply& id, const char* what, Reply value) {
-  replies_.push_back(Reply{{"jsonrpc", "2.0"}, {what, std::move(value)}, {"id", id}});
+  std::string text = text_of({{"jsonrpc", "2.0"}, {what, std::move(value)}, {"id", id}});
+  try {
+    budget_.spend_bytes(text.size());
+  } catch (const RpcError& error) {
+    text = text_of({{"jsonrpc", "2.0"}, {"error", error.as_json()}, {"id", id}});
+  }
+  if (!replies_.empty()) replies_ += ',';
+  replies_ += text;
 }
 
 void Message::answer(Reply result) {
@@ -77,7 +85,7 @@ void Message::fail(const RpcError& error) {
 
 std::string Message::reply() const {
   if (replies_.empty()) return "";
-  return line_of(is_batch_ ? replies_ : replies_.front());
+  return is_batch_ ? "[" + replies_ + "]\n" : replies_ + "\n";
 }
 
 }  // namespace muro::jsonrpc

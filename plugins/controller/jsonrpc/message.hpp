@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "rpc_error.hpp"
+#include "budget.hpp"
 
 namespace muro::jsonrpc {
 
@@ -27,6 +27,10 @@ class Message {
 
   /// The request to be answered next. Null: all are.
   const Request* present() const { return requests_.empty() ? nullptr : &requests_.front(); }
+  /// How many are to be answered, with that one.
+  std::size_t left() const { return requests_.size(); }
+  /// What the answers may hold.
+  Budget& budget() { return budget_; }
   /// Answers the present one; for a notification, the answer is kept to ourselves.
   void answer(Reply result);
   void fail(const RpcError& error);
@@ -40,7 +44,8 @@ class Message {
 
   bool is_batch_ = false;
   std::deque<Request> requests_;
-  Reply replies_ = Reply::array();
+  Budget budget_;
+  std::string replies_;  ///< with commas between them
 };
 
 }  // namespace muro::jsonrpc

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -13,8 +14,15 @@
 #include "muro/ext/run_control.hpp"
 #include "params.hpp"
 #include "scene_names.hpp"
+#include "values.hpp"
 
 namespace muro::jsonrpc {
+
+/// The client that has the run stand, now or once it has gone on for a while.
+struct Pauser {
+  std::uint32_t client = 0;
+  bool stays = false;  ///< the pause, when the client goes
+};
 
 /// What methods work on.
 struct Served {
@@ -25,6 +33,7 @@ struct Served {
   std::int64_t period = 0;                         ///< ns, of the controller
   bool is_complete = false;                        ///< the instant: not within a step
   std::set<std::string, std::less<>> snapshots{};  ///< names of those that clients have made
+  std::optional<Pauser> pauser{};                  ///< none: it goes on, or others have it stand
   std::string token{};                             ///< which clients have to say first; empty: they have not
 };
 
@@ -38,8 +47,10 @@ class Call {
   Conversation& client;
   const Params& params;
 
-  /// Answers now.
+  /// Answers now. What neither answers nor waits for something is answered with the time.
   void answer(Reply result) { result_ = std::move(result); }
+  /// Of the message that the request is part of.
+  Budget& budget() { return client.message->budget(); }
   /// Answers with the time when all effects are done. Hand ticket and `done` to each request to the simulation.
   std::uint64_t effect() {
     client.pending.until = Pending::Until::effects;
@@ -51,7 +62,7 @@ class Call {
   /// Answers with the time then.
   void wait_for(Pending::Until until, std::int64_t time) { client.pending = {until, time, 0, ""}; }
 
-  /// What it was answered with; null where it waits.
+  /// What it was answered with; null: nothing.
   Reply take_result() { return std::move(result_); }
 
  private:
@@ -71,6 +82,9 @@ std::span<const Method> methods();
 
 /// {"time": ns, "seconds": s}, which every result begins with that has nothing else to say.
 Reply time_reply(std::int64_t time);
+
+/// The parameter `encoding`.
+Encoding encoding_of(const Params& params);
 
 // In reading_methods.cpp, subscription_methods.cpp, changing_methods.cpp, run_methods.cpp.
 void authenticate(Call&);

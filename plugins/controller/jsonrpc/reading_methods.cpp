@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t most_names = 10'000;       ///< in one reply
 constexpr std::size_t most_properties = 10'000;  ///< in one reply
-constexpr std::size_t most_numbers = 500'000;    ///< in one reply: some 10 MB of text
 
 std::string_view name_of(Multiplicity m) {
   constexpr std::string_view names[] = {"single", "array", "list"};
@@ -38,6 +37,7 @@ void tell_time(Call& c) {
   Reply result = time_reply(c.served.time);
   result["speed"] = c.served.run.speed();
   result["paused"] = c.served.run.is_paused();
+  if (c.served.pauser) result["paused_by"] = c.served.pauser->client;
   c.answer(std::move(result));
 }
 
@@ -45,6 +45,7 @@ void list(Call& c) {
   const std::string pattern = c.params.text("pattern", "*");
   std::size_t left_out = 0;
   Reply names = c.served.scene.matching(pattern, most_names, left_out);
+  c.budget().spend_names(names.size());
   const bool names_objects = pattern.find(':') == std::string::npos;
   c.answer({{names_objects ? "objects" : "properties", std::move(names)}, {"left_out", left_out}});
 }
@@ -73,8 +74,8 @@ void describe(Call& c) {
 void get(Call& c) {
   const SceneNames& scene = c.served.scene;
   Reply values = Reply::object();
-  std::size_t numbers = 0;
   std::set<std::string, std::less<>> told;
+  const Encoding encoding = encoding_of(c.params);
   const std::vector<std::string> patterns = c.params.texts("properties", most_properties);
   for (const std::string& pattern : patterns) {
     const bool is_pattern = pattern.find_first_of("*?") != std::string::npos;
@@ -84,15 +85,13 @@ void get(Call& c) {
       if (!has_values(p))
         throw RpcError{Code::refused, quote(name.text) + " is of type " + std::string(p.key->type->name) +
                                           ", which is not made of numbers"};
-      numbers += c.params.has("element") ? p.key->type->scalars() : numbers_in(p);
-      if (numbers > most_numbers || told.size() > most_properties)
-        throw RpcError{Code::too_many, "a reply has at most " + std::to_string(most_numbers) + " numbers of " +
-                                           std::to_string(most_properties) + " properties; ask for fewer"};
+      c.budget().spend_names(1);
+      c.budget().spend_numbers(c.params.has("element") ? p.key->type->scalars() : cost_of(p, encoding));
       if (c.params.has("element")) {
         const auto element = std::uint32_t(c.params.integer("element", 0, std::int64_t(p.count) - 1));
         values.push_back({name.text, value_of_element(p, element, scene.inspection())});
       } else {
-        values.push_back({name.text, value_of(p, scene.inspection())});
+        values.push_back({name.text, value_of(p, scene.inspection(), encoding)});
       }
     }
   }

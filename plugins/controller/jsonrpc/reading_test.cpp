@@ -13,6 +13,7 @@ namespace muro::jsonrpc {
 namespace {
 
 using testing::Dialogue;
+using testing::request;
 
 /// Says a request, and returns result or error.
 Json ask(Dialogue& d, const std::string& method, const std::string& params = "{}") {
@@ -98,10 +99,10 @@ TEST(Reading, NamesTheNearestOfWhatIsNotThere) {
   EXPECT_EQ(fails("get", R"(["*:nothing"])"), R"(-32001 no property matches `*:nothing` "")");
   EXPECT_EQ(
       fails("get", R"({"property":"rover:pose"})"),
-      R"(-32602 there is no parameter `property`; the method has `properties`, `element` {"did_you_mean":"properties"})");
+      R"(-32602 there is no parameter `property`; the method has `properties`, `element`, `encoding` {"did_you_mean":"properties"})");
   EXPECT_EQ(fails("get", "{}"), R"(-32602 the parameter `properties` is missing "")");
-  EXPECT_EQ(fails("get", R"(["rover/base:pose",0,1])"),
-            R"(-32602 there are 3 parameters, but the method has 2: `properties`, `element` "")");
+  EXPECT_EQ(fails("get", R"(["rover/base:pose",0,"text",1])"),
+            R"(-32602 there are 4 parameters, but the method has 3: `properties`, `element`, `encoding` "")");
   EXPECT_EQ(fails("info", "[1]"), R"(-32602 there is 1 parameter, but the method has 0: none "")");
   EXPECT_EQ(fails("get", R"({"properties":"rover:ranges","element":3})"),
             R"(-32602 `element` must be a whole number from 0 to 2 "")");
@@ -110,11 +111,51 @@ TEST(Reading, NamesTheNearestOfWhatIsNotThere) {
   EXPECT_TRUE(fails("get", R"(["pose"])").starts_with("-32602 `pose` must be \"object:property\""));
 }
 
+TEST(Reading, TellsArraysAsBytesToo) {
+  Dialogue d;
+  const Json values = ask(d, "get", R"({"properties":"rover/base:*","encoding":"base64"})")["values"];
+  EXPECT_EQ(values["rover/base:ranges"],
+            Json::parse(R"({"type":"float64","shape":[3,1],"base64":"AAAAAAAA4D8AAAAAAAD4PwAAAAAAAARA"})"))
+      << "as `struct.pack` and `base64` of Python have it";
+  EXPECT_EQ(values["rover/base:flag"], 7) << "what is no array stays as it is";
+  EXPECT_TRUE(values["rover/base:hits"].is_array()) << "names are no numbers";
+  d.scene.ranges.assign(500'000, 1);
+  EXPECT_EQ(ask(d, "get", R"({"properties":"rover:ranges","encoding":"base64"})")["values"].size(), 1u);
+  EXPECT_EQ(ask(d, "get", R"({"properties":"rover:ranges","encoding":"png"})")["code"], -32602);
+}
+
 TEST(Reading, RefusesAReplyWithoutEnd) {
   Dialogue d;
   d.scene.ranges.assign(500'001, 1);
   EXPECT_EQ(ask(d, "get", R"(["rover:ranges"])")["code"], -32003);
   EXPECT_EQ(ask(d, "get", R"(["rover:ranges",500000])")["values"]["rover/base:ranges"], 1);
+}
+
+TEST(Reading, RefusesABatchWhoseRepliesTogetherHaveTooManyNumbers) {
+  Dialogue d;
+  d.scene.ranges.assign(200'000, 1);
+  std::string batch = "[" + request("get", R"(["rover:ranges"])", 1);
+  for (int i = 2; i <= 4; ++i) batch += "," + request("get", R"(["rover:ranges"])", i);
+  const Json replies = Json::parse(d.say(batch + "]\n"));
+  EXPECT_TRUE(replies[0].contains("result"));
+  EXPECT_TRUE(replies[1].contains("result"));
+  EXPECT_EQ(replies[2]["error"]["code"], -32003);
+  EXPECT_EQ(replies[2]["error"]["data"], Json::parse(R"({"limit":"numbers","most":500000,"left":100000})"));
+  EXPECT_EQ(ask(d, "get", R"(["rover:ranges"])")["values"]["rover/base:ranges"].size(), 200'000u) << "alone it may";
+}
+
+TEST(Reading, SpendsNoMoreThanAMessageMay) {
+  Budget budget;
+  budget.spend_names(Budget::most_names);
+  try {
+    budget.spend_names(1);
+    FAIL();
+  } catch (const RpcError& error) {
+    EXPECT_EQ(error.data["limit"], "names");
+  }
+  budget.spend_bytes(Budget::most_bytes - 1);
+  EXPECT_THROW(budget.spend_bytes(2), RpcError);
+  budget.spend_bytes(1);
 }
 
 TEST(Reading, TellsTimeSpeedAndWhatIsGranted) {

@@ -13,15 +13,23 @@ constexpr double longest = 1e9;  ///< s that one request lets pass
 
 std::int64_t nanoseconds(double seconds) { return std::int64_t(std::llround(1e9 * seconds)); }
 
+/// Unless others have the run stand already.
+void take_pause(Call& c) {
+  if (c.served.run.is_paused() && !c.served.pauser) return;
+  c.served.pauser = Pauser{c.client.client, c.params.flag("keep", false)};
+}
+
 }  // namespace
 
 void pause(Call& c) {
+  take_pause(c);
   c.served.run.set_paused(true);
   c.wait_for(Pending::Until::pause, c.served.time);
 }
 
 void resume(Call& c) {
   c.served.run.set_paused(false);
+  c.served.pauser.reset();
   c.answer(time_reply(c.served.time));
 }
 
@@ -40,6 +48,7 @@ void step(Call& c) {
     throw RpcError{Code::invalid_params, "give either `seconds` or `steps`, which are those of this controller"};
   const std::int64_t ns = c.params.has("seconds") ? nanoseconds(c.params.real("seconds", 1e-9, longest))
                                                   : c.params.integer("steps", 1, 1'000'000'000) * c.served.period;
+  take_pause(c);
   c.served.run.step_for(ns);
   c.wait_for(Pending::Until::pause, c.served.time + ns);
 }

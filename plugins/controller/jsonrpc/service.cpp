@@ -29,12 +29,36 @@ void Service::begin_step(std::int64_t time, std::int64_t period) {
   served_.period = period;
   served_.is_complete = false;
   in_step_ = true;
+  last_news_ = std::chrono::steady_clock::now();
+  is_told_ = false;
+  if (!served_.run.is_paused()) served_.pauser.reset();
+  spent_ = {};
 }
 
 void Service::begin_pause() {
   served_.time = served_.run.time();
   served_.is_complete = true;
   in_step_ = false;
+  spent_ = {};
+}
+
+void Service::end(Conversation& c) {
+  c.is_over = true;
+  end_pause_of(c.client);
+  outlet_.disconnect(c.client);
+}
+
+void Service::end_pause_of(std::uint32_t client) {
+  if (!served_.pauser || served_.pauser->client != client) return;
+  if (served_.pauser->stays) return;
+  served_.run.set_paused(false);
+  served_.pauser.reset();
+}
+
+std::optional<Pauser> Service::who_keeps_it_waiting() {
+  const bool is_long = std::chrono::steady_clock::now() - last_news_ > long_pause;
+  if (!served_.pauser || !is_long || std::exchange(is_told_, true)) return std::nullopt;
+  return served_.pauser;
 }
 
 void Service::connected(std::uint32_t client) {
@@ -47,9 +71,7 @@ void Service::connected(std::uint32_t client) {
 void Service::hang_up_on_strangers() {
   const auto now = std::chrono::steady_clock::now();
   for (auto& [client, c] : conversations_) {
-    if (c.is_trusted || c.is_over || now - c.since < time_to_authenticate) continue;
-    c.is_over = true;
-    outlet_.disconnect(client);
+    if (!c.is_trusted && !c.is_over && now - c.since >= time_to_authenticate) end(c);
   }
 }
 
@@ -67,16 +89,22 @@ void Service::forget_who_left() {
   auto surplus = std::count_if(conversations_.begin(), conversations_.end(), left) - std::ptrdiff_t(most_left);
   std::erase_if(conversations_, [&](const auto& entry) {
     const bool is_forgotten = left(entry) && (entry.second.is_idle() || surplus-- > 0);
-    if (is_forgotten) outlet_.disconnect(entry.first);
+    if (is_forgotten) end_pause_of(entry.first), outlet_.disconnect(entry.first);
     return is_forgotten;
   });
 }
 
 void Service::received(std::uint32_t client, std::string_view line) {
+  last_news_ = std::chrono::steady_clock::now();
+  is_told_ = false;
   const auto found = conversations_.find(client);
   if (found == conversations_.end() || found->second.is_over || is_blank(line)) return outlet_.answered();
   Conversation& c = found->second;
   if (c.lines.size() >= Conversation::most_lines || c.bytes + line.size() > Conversation::most_bytes) {
+    if (!outlet_.has_room(client)) {  // it goes on asking, and does not read
+      end(c);
+      return outlet_.answered();
+    }
     Message refused(line);
     while (refused.present()) refused.fail({Code::too_many, "too many requests wait for others to be answered"});
     if (const std::string reply = refused.reply(); !reply.empty()) outlet_.send(client, reply);
@@ -85,15 +113,26 @@ void Service::received(std::uint32_t client, std::string_view line) {
   c.lines.emplace_back(line);
   c.bytes += line.size();
   carry_on(c, Lines::may_begin);
+  hold_or_release(c);
 }
 
-/// Carries out requests until one of them waits, or all are answered.
+/// Long before it has said too much.
+void Service::hold_or_release(Conversation& c) {
+  constexpr std::size_t many = Conversation::most_lines / 8, much = Conversation::most_bytes / 8;
+  const bool is_full = c.lines.size() >= many || c.bytes >= much;
+  const bool has_room = c.lines.size() < many / 2 && c.bytes < much / 2;
+  if (c.is_held ? has_room : is_full) outlet_.hold(c.client, c.is_held = !c.is_held);
+}
+
+/// Carries out requests until one of them waits, all are answered, the client does not read, or there is no time left.
 void Service::carry_on(Conversation& c, Lines lines) {
   if (c.is_active) return;  // further up the stack it will go on
   c.is_active = true;
-  while (!c.is_over && c.pending.until == Pending::Until::nothing) {
+  const bool had_time = has_time();
+  while (!c.is_over && c.pending.until == Pending::Until::nothing && has_time()) {
+    const auto begin = std::chrono::steady_clock::now();
     if (!c.message) {
-      if (c.lines.empty() || lines == Lines::later) break;
+      if (c.lines.empty() || lines == Lines::later || !outlet_.has_room(c.client)) break;
       c.message.emplace(c.lines.front());
       c.bytes -= c.lines.front().size();
       c.lines.pop_front();
@@ -102,12 +141,15 @@ void Service::carry_on(Conversation& c, Lines lines) {
       begin_request(c);
     else
       finish_message(c);
+    spent_ += std::chrono::steady_clock::now() - begin;
   }
   c.is_active = false;
+  if (had_time && !has_time()) first_ = c.client + 1;
 }
 
 void Service::begin_request(Conversation& c) {
   const Request& request = *c.message->present();
+  const std::size_t left = c.message->left();
   ++c.requests;
   try {
     if (!c.is_trusted && request.method != "authenticate")
@@ -120,7 +162,9 @@ void Service::begin_request(Conversation& c) {
                                             std::string(method.name) + "\""};
     Call call(served_, c, params, *this);
     method.carry_out(call);
-    if (Reply result = call.take_result(); !result.is_null()) c.message->answer(std::move(result));
+    if (c.pending.until != Pending::Until::nothing || c.message->left() != left) return;  // it waits, or has waited
+    Reply result = call.take_result();
+    c.message->answer(result.is_null() ? time_reply(served_.time) : std::move(result));
   } catch (const RpcError& error) {
     c.pending = {};
     c.message->fail(error);
@@ -133,14 +177,8 @@ void Service::begin_request(Conversation& c) {
 void Service::finish_message(Conversation& c) {
   const std::string reply = c.message->reply();
   c.message.reset();
-  if (!reply.empty() && !outlet_.send(c.client, reply)) {
-    // it waits for a reply that it will never get
-    c.is_over = true;
-    outlet_.disconnect(c.client);
-  } else if (c.failures >= Conversation::most_failures) {
-    c.is_over = true;
-    outlet_.disconnect(c.client);
-  }
+  const bool is_lost = !reply.empty() && !outlet_.send(c.client, reply);  // it would wait for it for ever
+  if (is_lost || c.failures >= Conversation::most_failures) end(c);
   outlet_.answered();
 }
 
@@ -161,21 +199,26 @@ bool Service::is_waiting() const {
 void Service::answer_due() {
   forget_who_left();
   if (!served_.token.empty()) hang_up_on_strangers();
+  const std::uint32_t first = first_;
+  for (auto i = conversations_.lower_bound(first); i != conversations_.end(); ++i) answer_due(i->second);
+  for (auto i = conversations_.begin(); i != conversations_.end() && i->first < first; ++i) answer_due(i->second);
+}
+
+void Service::answer_due(Conversation& c) {
   const bool is_paused = !in_step_;
   const bool will_pause = served_.run.is_paused();
-  for (auto& [client, c] : conversations_) {
-    const Pending& p = c.pending;
-    if (p.until == Pending::Until::nothing) {
-      carry_on(c, Lines::may_begin);
-    } else if (p.until == Pending::Until::instant) {
-      if (in_step_ && served_.time >= p.time) end_wait(c, Lines::may_begin);
-    } else if (p.until == Pending::Until::pause && (is_paused || !will_pause)) {
-      const RpcError other{Code::refused,
-                           is_paused ? "the run was paused before that, by another client or in a window"
-                                     : "the run was resumed, by another client or in a window",
-                           {{"time", served_.time}}};
-      end_wait(c, Lines::may_begin, is_paused && served_.time >= p.time ? nullptr : &other);
-    }
+  hold_or_release(c);
+  const Pending& p = c.pending;
+  if (p.until == Pending::Until::nothing) {
+    carry_on(c, Lines::may_begin);
+  } else if (p.until == Pending::Until::instant) {
+    if (in_step_ && served_.time >= p.time) end_wait(c, Lines::may_begin);
+  } else if (p.until == Pending::Until::pause && (is_paused || !will_pause)) {
+    const RpcError other{Code::refused,
+                         is_paused ? "the run was paused before that, by another client or in a window"
+                                   : "the run was resumed, by another client or in a window",
+                         {{"time", served_.time}}};
+    end_wait(c, Lines::may_begin, is_paused && served_.time >= p.time ? nullptr : &other);
   }
 }
 
@@ -183,7 +226,7 @@ void Service::send_updates() {
   for (auto& [client, c] : conversations_) {
     if (c.is_over) continue;
     for (Subscription& s : c.subscriptions) {
-      const Reply update = s.update(served_.scene, served_.time, in_step_);
+      const Reply update = s.update(served_.scene, served_.time, in_step_, outlet_.has_room_for_updates(client));
       if (update.is_null()) continue;
       if (outlet_.send_update(client, line_of(update)))
         s.was_sent();

@@ -142,9 +142,12 @@ class FakeOutlet final : public Outlet {
  public:
   std::map<std::uint32_t, std::string> sent;
   std::vector<std::uint32_t> ended;
+  std::map<std::uint32_t, bool> held;
   std::size_t answers = 0, changes = 0;
-  bool is_full = false, is_full_for_updates = false;
+  bool is_full = false, is_full_for_updates = false, is_slow = false;
 
+  bool has_room(std::uint32_t) const override { return !is_slow; }
+  bool has_room_for_updates(std::uint32_t) const override { return true; }  // send_update tells
   bool send(std::uint32_t client, std::string_view line) override {
     if (!is_full) sent[client] += line;
     return !is_full;
@@ -152,6 +155,7 @@ class FakeOutlet final : public Outlet {
   bool send_update(std::uint32_t client, std::string_view line) override {
     return !is_full_for_updates && send(client, line);
   }
+  void hold(std::uint32_t client, bool is_held) override { held[client] = is_held; }
   void changed() override { ++changes; }
   void answered() override { ++answers; }
   void disconnect(std::uint32_t client) override { ended.push_back(client); }

@@ -30,16 +30,20 @@ bool Subscription::has_changed(const SceneNames& scene) {
   return true;
 }
 
-Reply Subscription::update(const SceneNames& scene, std::int64_t time, bool at_step) {
+Reply Subscription::update(const SceneNames& scene, std::int64_t time, bool at_step, bool has_room) {
   if (!is_due(time, at_step)) return nullptr;
   is_repeated_ = timing_.is_on_change && !has_changed(scene);
   if (is_repeated_ && lost_ == 0) return nullptr;
   last_time_ = time;
   if (!timing_.is_on_change)  // an instant later than several of them stands for all
     next_ = std::uint64_t(std::floor(double(time - begin_) * timing_.rate / 1e9 + 1e-9)) + 1;
+  if (!has_room) {
+    was_lost();
+    return nullptr;
+  }
   Reply values = Reply::object();
   for (const PropertyName& name : properties_)
-    values.push_back({name.text, value_of(scene.live(name), scene.inspection())});
+    values.push_back({name.text, value_of(scene.live(name), scene.inspection(), timing_.encoding)});
   Reply params{{"subscription", number_}, {"time", time}, {"values", std::move(values)}};
   if (lost_ > 0) params["dropped"] = lost_;
   return {{"jsonrpc", "2.0"}, {"method", "update"}, {"params", std::move(params)}};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene_names.hpp"
+#include "values.hpp"
 
 namespace muro::jsonrpc {
 
@@ -16,6 +17,7 @@ class Subscription {
     bool is_on_change = false;
     double rate = 0;          ///< Hz of simulated time, of those that are not on change
     std::int64_t period = 0;  ///< ns, the least between two updates, of those on change
+    Encoding encoding = Encoding::text;
   };
   /// `numbers`: that the properties have together.
   Subscription(std::uint32_t number, std::vector<PropertyName> properties, std::size_t numbers, Timing timing)
@@ -23,8 +25,9 @@ class Subscription {
 
   std::uint32_t number() const { return number_; }
   std::size_t numbers() const { return numbers_; }
-  /// The notification for this instant, or null where none is due. `at_step`: time goes on, and rates count.
-  Reply update(const SceneNames& scene, std::int64_t time, bool at_step);
+  /// The notification for this instant, or null where none is due, or where there is no room for it: then it is lost,
+  /// and costs nothing. `at_step`: time goes on, and rates count.
+  Reply update(const SceneNames& scene, std::int64_t time, bool at_step, bool has_room);
   /// It was not sent: the next one tells how many were lost. A change is told again as soon as there is room.
   void was_lost() { lost_ += is_repeated_ ? 0 : 1; }
   void was_sent() { lost_ = 0; }

@@ -27,7 +27,7 @@ std::vector<PropertyName> subscribed(const Call& c, std::size_t& numbers) {
       if (!has_values(p)) throw RpcError{Code::refused, quote(name.text) + " is not made of numbers"};
       const auto is_same = [&](const PropertyName& other) { return other.text == name.text; };
       if (std::any_of(all.begin(), all.end(), is_same)) continue;
-      numbers += numbers_in(p);
+      numbers += cost_of(p, encoding_of(c.params));
       all.push_back(std::move(name));
     }
   }
@@ -46,6 +46,7 @@ void subscribe(Call& c) {
     throw RpcError{Code::too_many, "a client has at most " + std::to_string(Conversation::most_subscriptions) +
                                        " subscriptions; end one with `unsubscribe`"};
   Subscription::Timing timing;
+  timing.encoding = encoding_of(c.params);
   timing.is_on_change = c.params.flag("on_change", false);
   if (timing.is_on_change == c.params.has("rate"))
     throw RpcError{Code::invalid_params, "give either `rate`, in Hz of simulated time, or `on_change`: true"};

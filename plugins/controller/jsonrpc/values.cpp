@@ -2,6 +2,9 @@
 #include "values.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -56,6 +59,35 @@ void put(const ValueType& type, std::uint32_t column, const Json& value, const s
   });
 }
 
+bool is_told_in_base64(const LiveProperty& p, Encoding encoding) {
+  const ValueType& type = *p.key->type;
+  return encoding == Encoding::base64 && p.multiplicity != Multiplicity::single && has_values(p) &&
+         type.name != "muro.ObjectId" && type.name != "muro.TextId";
+}
+
+/// RFC 4648, section 4.
+std::string base64_of(std::string bytes) {
+  namespace iterators = boost::archive::iterators;
+  using Digits = iterators::base64_from_binary<iterators::transform_width<const char*, 6, 8>>;
+  const std::size_t padding = (3 - bytes.size() % 3) % 3;
+  bytes.append(padding, '\0');
+  std::string text(Digits(bytes.data()), Digits(bytes.data() + bytes.size()));
+  return text.replace(text.size() - padding, padding, padding, '=');
+}
+
+Reply bytes_of(const LiveProperty& p) {
+  static_assert(std::endian::native == std::endian::little);
+  const ValueType& type = *p.key->type;
+  const std::string name = with_scalar(type.scalar, []<class T>(T) {
+    return (std::is_floating_point_v<T> ? "float"
+            : std::is_signed_v<T>       ? "int"
+                                        : "uint") +
+           std::to_string(8 * sizeof(T));
+  });
+  std::string bytes(static_cast<const char*>(p.data), std::size_t(p.count) * type.size);
+  return {{"type", name}, {"shape", {p.count, type.scalars()}}, {"base64", base64_of(std::move(bytes))}};
+}
+
 std::string columns_of(const ValueType& type) {
   std::string all;
   for (const std::string_view label : type.labels) all += (all.empty() ? "" : ", ") + std::string(label);
@@ -80,7 +112,13 @@ Reply value_of_element(const LiveProperty& p, std::uint32_t element, const Inspe
   return columns;
 }
 
-Reply value_of(const LiveProperty& p, const Inspection& inspection) {
+std::size_t cost_of(const LiveProperty& p, Encoding encoding) {
+  if (!is_told_in_base64(p, encoding)) return numbers_in(p);
+  return (std::size_t(p.count) * p.key->type->size + 7) / 8;
+}
+
+Reply value_of(const LiveProperty& p, const Inspection& inspection, Encoding encoding) {
+  if (is_told_in_base64(p, encoding)) return bytes_of(p);
   if (p.multiplicity == Multiplicity::single) return value_of_element(p, 0, inspection);
   Reply elements = Reply::array();
   for (std::uint32_t i = 0; i < p.count; ++i) elements.push_back(value_of_element(p, i, inspection));

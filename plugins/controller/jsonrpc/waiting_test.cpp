@@ -182,5 +182,106 @@ TEST(Waiting, EndsTheConnectionOfAClientThatTakesNoReplies) {
   EXPECT_EQ(d.outlet.answers, 2u);
 }
 
+TEST(Pauses, EndWithTheClientThatHasAskedForThem) {
+  for (const char* method : {"pause", "step"}) {
+    Dialogue d;
+    d.service.connected(1);
+    d.say(request(method, method[0] == 's' ? R"({"steps":1})" : "{}"));
+    d.next_step();
+    d.attend();
+    EXPECT_EQ(ids_of(d.heard()), "1 ");
+    EXPECT_EQ(Json::parse(d.say(request("time"), 1))["result"]["paused_by"], 0) << method;
+    d.service.disconnected(1);
+    EXPECT_TRUE(d.run.paused) << "it was not that client";
+    d.service.disconnected(0);
+    EXPECT_FALSE(d.run.paused) << method;
+  }
+}
+
+TEST(Pauses, StayWhereTheClientWantsIt) {
+  Dialogue d;
+  d.say(request("pause", R"({"keep":true})"));
+  d.next_step();
+  d.attend();
+  d.service.disconnected(0);
+  EXPECT_TRUE(d.run.paused);
+}
+
+TEST(Pauses, StayWhereOthersHavePausedBefore) {
+  Dialogue d;
+  d.run.paused = true;
+  d.say(request("pause"));
+  d.attend();
+  d.service.disconnected(0);
+  EXPECT_TRUE(d.run.paused);
+}
+
+TEST(Pauses, EndWhenAllIsAnsweredThatWasSaidBeforeTheEnd) {
+  Dialogue d;
+  d.say(request("wait"));
+  d.say(request("pause", "{}", 2));
+  d.say(request("get", R"(["rover:flag"])", 3));
+  d.service.disconnected(0);
+  d.next_step();
+  EXPECT_TRUE(d.run.paused);
+  d.attend();
+  EXPECT_EQ(ids_of(d.heard()), "1 2 3 ");
+  d.attend();
+  EXPECT_FALSE(d.run.paused);
+}
+
+TEST(ClientsThatDoNotRead, HaveNothingComputed) {
+  Dialogue d;
+  d.outlet.is_slow = true;
+  EXPECT_EQ(d.say(request("time")), "");
+  d.settle();
+  EXPECT_EQ(d.heard(), "");
+  d.outlet.is_slow = false;
+  d.next_step();
+  EXPECT_EQ(ids_of(d.heard()), "1 ");
+}
+
+TEST(ClientsThatDoNotRead, AreNotReadFrom) {
+  Dialogue d;
+  d.outlet.is_slow = true;
+  for (std::size_t i = 0; i < Conversation::most_lines / 8; ++i) d.say(request("time"));
+  EXPECT_TRUE(d.outlet.held[0]);
+  d.outlet.is_slow = false;
+  d.settle();
+  EXPECT_FALSE(d.outlet.held[0]);
+}
+
+TEST(ClientsThatDoNotRead, AreDisconnectedWhenTheyGoOnAsking) {
+  Dialogue d;
+  d.outlet.is_slow = true;
+  for (std::size_t i = 0; i < Conversation::most_lines; ++i) d.say(request("time"));
+  EXPECT_TRUE(d.outlet.ended.empty());
+  d.say(request("time"));
+  EXPECT_EQ(d.outlet.ended, std::vector<std::uint32_t>{0});
+}
+
+TEST(Batches, GoOnInTheNextStepWhereTheyTakeLong) {
+  Dialogue d;
+  d.service.set_time_in_a_step(std::chrono::milliseconds(5));
+  d.scene.ranges.assign(100'000, 1.0 / 3);
+  d.service.connected(1);
+  std::string batch;
+  for (int i = 1; i <= 4; ++i) batch += (batch.empty() ? "[" : ",") + request("get", R"(["rover:ranges"])", i);
+  EXPECT_EQ(d.say(batch + "]\n"), "") << "it takes more than 5 ms";
+  EXPECT_EQ(d.say(request("time"), 1), "") << "there is no time left in this step";
+  d.next_step();
+  EXPECT_EQ(ids_of(d.heard(1)), "1 ") << "others come first";
+  d.settle();
+  EXPECT_EQ(Json::parse(d.heard()).size(), 4u);
+}
+
+TEST(Batches, FollowEachOtherAtOnceWhereTimeDoesNotCount) {
+  Dialogue d;
+  d.scene.ranges.assign(100'000, 1.0 / 3);
+  std::string batch;
+  for (int i = 1; i <= 4; ++i) batch += (batch.empty() ? "[" : ",") + request("get", R"(["rover:ranges"])", i);
+  EXPECT_EQ(Json::parse(d.say(batch + "]\n")).size(), 4u);
+}
+
 }  // namespace
 }  // namespace muro::jsonrpc
