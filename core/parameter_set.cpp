@@ -58,7 +58,7 @@ std::string allowed_values(const Parameter& p) {
       break;
   }
   if (p.choices.empty()) return p.is_required ? "a text that is not empty" : "a text";
-  return fmt::format("one of {}", fmt::join(p.choices, " "));
+  return fmt::format("one of {}", fmt::join(p.choices, ", "));
 }
 
 const double* number_in(const ParameterInput& input, double& storage) {
@@ -67,6 +67,14 @@ const double* number_in(const ParameterInput& input, double& storage) {
     storage = double(*i);
     return &storage;
   }
+  return nullptr;
+}
+
+/// The choice that a file means by a word which YAML takes for true or false: `off` among `on` and `off`.
+const std::string_view* choice_of(const Parameter& p, bool given) {
+  constexpr std::string_view words[2][3] = {{"off", "no", "false"}, {"on", "yes", "true"}};
+  for (const std::string_view& choice : p.choices)
+    if (std::find(std::begin(words[given]), std::end(words[given]), choice) != std::end(words[given])) return &choice;
   return nullptr;
 }
 
@@ -132,6 +140,10 @@ ParameterValue ParameterSet::value_of(const Parameter& p, const ParameterInput* 
         v.text = texts_.emplace_back(*s);
         fine = p.choices.empty() ? !p.is_required || !v.text.empty()
                                  : std::find(p.choices.begin(), p.choices.end(), v.text) != p.choices.end();
+      } else if (const bool* b = std::get_if<bool>(given)) {
+        const std::string_view* const choice = choice_of(p, *b);
+        fine = choice != nullptr;
+        if (choice) v.text = *choice;
       }
       break;
     case ParameterType::reals:

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -23,7 +24,7 @@ bool writes(Usage u) { return u.access == Access::write; }
 void grow_list(ListHeader* list, std::uint64_t wanted) {
   const std::uint64_t capacity = std::max<std::uint64_t>({wanted, 2 * list->capacity, 8});
   void* memory = std::realloc(list->data, capacity * list->element_size);
-  if (!memory) std::abort();  // a step has no way to go on without memory
+  if (!memory) throw std::bad_alloc();
   list->data = memory;
   list->capacity = capacity;
 }

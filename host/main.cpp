@@ -16,6 +16,7 @@
 #include "host/outputs/standard_output.hpp"
 #include "host/process/crash_report.hpp"
 #include "host/process/exit_guard.hpp"
+#include "host/process/out_of_memory.hpp"
 #include "host/process/standard_error.hpp"
 #include "host/scenario/scenario.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
@@ -337,8 +338,8 @@ int exit_code_of(int argc, char** argv) {
     fmt::print(stderr, "{}\n", e.what());
     return 1;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "muro needs more memory than there is; make the scene smaller\n");
-    return 1;
+    fmt::print(stderr, "the scene needs more memory than there is; make it smaller\n");
+    return 2;
   } catch (const std::exception& e) {
     if (!standard_output_failed()) fmt::print(stderr, "muro failed: {}\n", muro::message_text(e.what()));
     return standard_output_failed() ? 0 : 1;  // close_standard_output tells of it
@@ -349,6 +350,7 @@ int exit_code_of(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   report_crashes();
+  report_lack_of_memory();
   const ExitGuard guard;
   // a reader that leaves and a file that grows too large are errors of who writes, so that other outputs are closed
   std::signal(SIGPIPE, SIG_IGN);

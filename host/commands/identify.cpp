@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <iterator>
 #include <mutex>
 #include <thread>
 
@@ -57,6 +58,20 @@ std::optional<double> fraction_of(const std::vector<std::string>& validate) {
   if (code != std::errc{} || used != text.data() + text.size()) return std::nullopt;
   if (!(x > 0 && x < 1)) throw SetupError("--validate " + text + ": a part of the records is above 0 and below 1");
   return x;
+}
+
+/// Without those that are validated, however their paths are written: an error of what was fitted tells nothing.
+std::vector<std::string> left_for_the_fit(const IdentifyOptions& o) {
+  const auto is_validated = [&](const std::string& file) {
+    return std::any_of(o.validate.begin(), o.validate.end(), [&](const std::string& other) {
+      std::error_code ignored;
+      return std::filesystem::equivalent(file, other, ignored);
+    });
+  };
+  std::vector<std::string> left;
+  std::remove_copy_if(o.records.begin(), o.records.end(), std::back_inserter(left), is_validated);
+  if (left.empty()) throw SetupError("--validate names every record; leave some of them for the fit");
+  return left;
 }
 
 /// Moves the share `part` of the records, by chance, to the result.
@@ -198,8 +213,10 @@ int identify(const IdentifyOptions& o) {
 
   const RecordDefaults defaults{o.p_gain, o.supply_voltage, o.mass, o.length, o.arm_mass, o.inertia};
   std::vector<MotorRecord> records, validation;
-  for (const std::string& file : o.records) records.push_back(read_motor_record(file, defaults));
-  if (const std::optional<double> part = fraction_of(o.validate))
+  const std::optional<double> part = fraction_of(o.validate);
+  for (const std::string& file : part ? o.records : left_for_the_fit(o))
+    records.push_back(read_motor_record(file, defaults));
+  if (part)
     validation = take_part(records, *part, o.seed);
   else
     for (const std::string& file : o.validate) validation.push_back(read_motor_record(file, defaults));
@@ -208,7 +225,7 @@ int identify(const IdentifyOptions& o) {
 
   SearchProgress progress;
   const Identification id = identify_motor(std::move(records), std::move(validation), settings, o.cross_validate,
-                                           [&](const std::string& what, double part) { progress.show(what, part); });
+                                           [&](const std::string& what, double done) { progress.show(what, done); });
   progress.close();
   std::string unwritten;
   Failures failures(unwritten);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/process/exit_guard.hpp"
 
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -16,23 +17,27 @@ namespace {
 
 std::atomic<pid_t> guarded_process{0};  // a process that a library has forked may exit as it likes
 
-void check_exit() {
+/// `how`: the function.
+void check(const char* how) {
   if (guarded_process.load() != getpid()) return;
   SignalText line;
   const RunningCall& call = running_call();
   if (call.callee.load()) {
     add_who(line, call);
-    line.add(" ended the program by exit()");
+    line.add(" ended the program by ");
+    line.add(how);
     add_where(line, call);
   } else {
-    line.add("a library ended the program by exit()");
+    line.add("a library ended the program by ");
+    line.add(how);
   }
   line.add("; files that were being written end in .part\n");
   std::signal(SIGPIPE, SIG_IGN);
   std::fflush(stdout);
   line.write_to(STDERR_FILENO);
-  _exit(1);
+  ExitGuard::leave(1);
 }
+void check_exit() { check("exit()"); }
 
 }  // namespace
 
@@ -45,6 +50,15 @@ void ExitGuard::renew() {
   if (guarded_process.load() == 0) return;
   std::atexit(check_exit);
   at_quick_exit(check_exit);
+}
+
+void ExitGuard::leave(int code) {
+  for (;;) syscall(SYS_exit_group, code);
+}
+
+void ExitGuard::leave_for_others(int code) {
+  check("_exit()");
+  leave(code);
 }
 
 ExitGuard::~ExitGuard() { guarded_process = 0; }

@@ -13,6 +13,7 @@
 
 #include "core/running_call.hpp"
 #include "host/process/crash_report.hpp"
+#include "host/process/exit_guard.hpp"
 
 namespace muro::host {
 
@@ -59,7 +60,7 @@ void show_stack_of(const RunningCall& call) {
   line.add(" s (--step-timeout); files that were being written end in .part\n");
   line.write_to(STDERR_FILENO);
   show_stack_of(call);
-  _exit(1);
+  ExitGuard::leave(1);
 }
 
 }  // namespace

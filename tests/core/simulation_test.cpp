@@ -122,7 +122,7 @@ TEST(Simulation, ChecksParametersAgainstTheDescription) {
   } catch (const SetupError& e) {
     EXPECT_STREQ(
         e.what(),
-        "motion.point #0: parameter `mode` is \"fly\" but must be one of velocity pose\n"
+        "motion.point #0: parameter `mode` is \"fly\" but must be one of velocity, pose\n"
         "motion.point #0: parameter `max_turn_rate` is -1 but must be a number from 0 to 1e+09 rad/s\n"
         "motion.point #0: parameter `max_acceleration` is \"big\" but must be a number from 0 to 1e+09 m/s^2\n"
         "motion.point #0: `motion.point` has no parameter `max_sped` (did you mean `max_speed`?); it has: mode, "

@@ -51,9 +51,10 @@ class IdentifyProgram : public testing::Test {
 };
 
 TEST_F(IdentifyProgram, WritesAReportAPictureAndAFragmentThatRuns) {
-  const auto r =
-      run("identify @r0.csv @r1.csv @r3.csv --model m1 --duty-gain 0.0028773775 --validate @r2.csv --report @r.md "
-          "--report @r.json --plot @r.svg --fragment @motor.yaml");
+  const auto r = run("identify @r0.csv @r1.csv @r2.csv @r3.csv --model m1 --duty-gain 0.0028773775 --validate @../" +
+                     std::filesystem::path(folder.path("")).parent_path().filename().string() +
+                     "/r2.csv --report @r.md "
+                     "--report @r.json --plot @r.svg --fragment @motor.yaml");
   ASSERT_EQ(r.exit_code, 0) << r.output;
   EXPECT_NE(r.output.find("Model M1 from 3 records: mean |error| 0.00"), std::string::npos) << r.output;
   EXPECT_NE(text_of("r.md").find("| r2.csv | 800 | left out |"), std::string::npos) << text_of("r.md");
@@ -133,6 +134,7 @@ TEST_F(IdentifyProgram, MistakesAreOneMessageAndWriteNothing) {
       {"@r0.csv --fit gain --plot @nowhere/r.svg", "there is no folder"},
       {"@r0.csv --fit gain --fragment @r0.csv", "is a record; it would be overwritten"},
       {"@r0.csv --fit gain --validate 0.1", "leaves none on one side"},
+      {"@r0.csv @r1.csv --fit gain --validate @r1.csv @r0.csv", "names every record"},
       {"@r1.csv --fit gain --validate 1.5", "above 0 and below 1"},
   };
   for (const auto& [arguments, message] : cases) {

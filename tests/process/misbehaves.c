@@ -55,6 +55,7 @@ static void thread_of_its_own(void) {
 }
 static void leaves(void) { exit(0); }
 static void leaves_quickly(void) { quick_exit(0); }
+static void leaves_at_once(void) { _exit(0); }
 static void hangs(void) {
   for (;;) pause();
 }
@@ -77,6 +78,7 @@ static const struct {
              {"thread_of_its_own", thread_of_its_own},
              {"leaves", leaves},
              {"leaves_quickly", leaves_quickly},
+             {"leaves_at_once", leaves_at_once},
              {"hangs", hangs},
              {"interrupts", interrupts},
              {"hangs_up", hangs_up},

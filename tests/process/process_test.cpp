@@ -106,6 +106,26 @@ TEST(Exit, ByControlCodeIsNoSuccess) {
   }
 }
 
+TEST(Exit, AtOnceByControlCodeIsNoSuccess) {
+  const SteeredRun run("does=leaves_at_once");
+  EXPECT_SAYS(run.result.output, run.call("ended the program by _exit()", "step", "0.200000"));
+  EXPECT_EQ(run.result.exit_code, 1);
+}
+
+TEST(Memory, ThatASceneLacksIsAnErrorOfThatScene) {
+  const test::ScratchFolder scratch;
+  const std::string file = scratch.file("s.yaml",
+                                        "world: {objects: {ground: {shape: plane}}}\n"
+                                        "robots:\n  ball: {count: 40000, shape: {sphere: 0.1}, mass: 1, place: {grid: "
+                                        "{count: [200, 200], spacing: [1, 1]}}, motion: {use: motion.simplified}}\n");
+  for (const int megabytes : {250, 300, 400, 500}) {
+    const auto result = run_command("ulimit -v " + std::to_string(1000 * megabytes) + "; " + program + " run " + file +
+                                    " --duration 0.01 --threads 1");
+    EXPECT_EQ(result.exit_code, 2) << megabytes << ": " << result.output;
+    EXPECT_SAYS(result.output, "the scene needs more memory than there is; make it smaller");
+  }
+}
+
 TEST(Exit, WhileALibraryIsLoadedIsNoSuccess) {
   const SteeredRun run("", "", "leaves_when_loaded");
   EXPECT_SAYS(run.result.output,

@@ -63,6 +63,19 @@ TEST(MjcfProblems, AttributesOfLaterVersionsAreLeftOut) {
   EXPECT_EQ(robot.joint("j")->link.limits.effort, std::numeric_limits<double>::infinity());
 }
 
+TEST(MjcfProblems, RangesAreLimitsAsInLaterVersions) {
+  const std::string bodies =
+      "<worldbody>\n<body name='a'><geom size='0.1'/><body>\n<joint name='j' range='-30 60'/><geom size='0.1'/>"
+      "</body></body></worldbody></mujoco>";
+  const Robot robot = robot_of("<mujoco model='m'>" + bodies);
+  ASSERT_TRUE(robot.tree.usable()) << joined(robot.problems);
+  EXPECT_TRUE(has_line(robot.problems, "note 1: a `range` without `limited` is a limit"));
+  EXPECT_NEAR(robot.joint("j")->link.limits.lower, -M_PI / 6, 1e-12);
+  EXPECT_NEAR(robot.joint("j")->link.limits.upper, M_PI / 3, 1e-12);
+  EXPECT_NE(refusal_of("<mujoco><compiler autolimits='false'/>" + bodies).find("autolimits"), std::string::npos)
+      << "the file says otherwise";
+}
+
 TEST(MjcfProblems, WhatNoVersionKnowsIsAMistake) {
   EXPECT_NE(refusal_of(mujoco("<body>\n<freejoint/><geom sise='0.1'/></body>")).find("unrecognized attribute: 'sise'"),
             std::string::npos);

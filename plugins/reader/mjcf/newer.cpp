@@ -155,11 +155,24 @@ bool replace_integrator(std::string& text, model_file::Problems& problems) {
   return false;
 }
 
+/// Later versions take `range` without `limited` as a limit, where the file does not say otherwise.
+bool limit_ranges(std::string& text, model_file::Problems& problems) {
+  if (text.find("autolimits") != text.npos) return false;
+  const std::size_t root = text.find("<mujoco"), end = root == text.npos ? root : text.find('>', root);
+  if (end == text.npos || text[end - 1] == '/') return false;
+  text.insert(end + 1, "<compiler autolimits=\"true\"/>");
+  problems.note({model_file::Location{line_at(text, root), 0}},
+                "a `range` without `limited` is a limit, as in MuJoCo from version 3 on; `<compiler "
+                "autolimits=\"true\"/>` in the file says so for all versions");
+  return true;
+}
+
 }  // namespace
 
 bool leave_out_newer(std::string& text, const std::string& error, model_file::Problems& problems) {
   static const std::regex unknown("unrecognized attribute: '([a-z_]+)'.*Element '([a-z]+)'");
   std::smatch parts;
+  if (error.find("autolimits") != error.npos) return limit_ranges(text, problems);
   if (!std::regex_search(error, parts, unknown))
     return error.find("invalid keyword: 'implicitfast'") != error.npos && replace_integrator(text, problems);
   const auto known = std::find_if(

@@ -6,8 +6,9 @@
 
 namespace muro::mjcf {
 
-/// Takes out of `text` what `error`, the words of MuJoCo's compiler, does not know, where a later version knows it and
-/// the model is much the same without it; as blanks, so that lines stay. False where that is not so.
+/// Adds what later versions take for granted: `autolimits`. Takes out of `text` what `error`, the words of MuJoCo's
+/// compiler, does not know, where a later version knows it and the model is much the same without it; as blanks, so
+/// that lines stay. False where that is not so.
 bool leave_out_newer(std::string& text, const std::string& error, model_file::Problems& problems);
 
 }  // namespace muro::mjcf
