@@ -13,6 +13,7 @@
 #include "model_description.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/ext/call_note.hpp"
+#include "plugins/common/copy_guard/copy_guard.hpp"
 
 namespace muro::fmu {
 
@@ -86,7 +87,9 @@ class Component {
   Status status_of(const char* name, Function* function, Arguments... arguments) {
     CallNote* const note = setup_.notes ? &setup_.notes->of_this_thread() : nullptr;
     if (note) note->set_library(setup_.binary->path().c_str(), name);
+    const CopyGuard guard;
     const auto status = Status(function(arguments...));
+    CopyGuard::end_copy(name);
     if (note) note->set_library(nullptr, nullptr);
     return status;
   }

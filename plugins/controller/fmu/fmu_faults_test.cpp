@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What users read when an FMU, or what a scenario says about it, is wrong, and how steps that fail are mended.
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
 
@@ -34,7 +36,8 @@ enum Fault {
   exits,
   chats,
   forks,
-  closes
+  closes,
+  copies
 };
 
 class FmuFault : public ::testing::TestWithParam<int> {
@@ -242,6 +245,16 @@ TEST_P(FmuFault, InAProcessOfItsOwnTakesProcessesAlong) {
     EXPECT_TRUE(test::is_running(other));
   }
   EXPECT_TRUE(test::ends_soon(other));
+}
+
+TEST_P(FmuFault, OfACopyThatComesBackLeavesOneSimulator) {
+  const pid_t own = getpid();
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(run(able(), {fault(copies)}), "no complaint");
+  EXPECT_EQ(getpid(), own);
+  EXPECT_GT(waitpid(-1, nullptr, 0), 0) << "a copy";
+  while (waitpid(-1, nullptr, WNOHANG) > 0) continue;
+  EXPECT_SAYS(::testing::internal::GetCapturedStderr(), "by fork(), came back from `fmi");
 }
 
 TEST_P(FmuFault, ByTheClockOrAKillMakesTheRunNotRepeatable) {

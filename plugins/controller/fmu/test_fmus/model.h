@@ -32,6 +32,7 @@ enum fault {
   FAULT_CHATS,
   FAULT_FORKS,
   FAULT_CLOSES,
+  FAULT_COPIES,
 };
 
 typedef struct {
@@ -164,6 +165,9 @@ static inline enum outcome model_step(model* m, double time, double size, double
       case FAULT_FORKS:
         if (m->child == 0) m->child = fork();
         while (m->child == 0) pause();
+        break;
+      case FAULT_COPIES:
+        fork();
         break;
       case FAULT_CLOSES:
         for (int descriptor = 3; descriptor < 1024; ++descriptor) close(descriptor);

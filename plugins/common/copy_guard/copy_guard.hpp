@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-namespace muro::control {
+namespace muro {
 
-/// Stands around a call of control code. When that calls fork(), a copy of the whole process comes back from the call,
-/// too: with a simulator, or its end of a call from one, that is there once already.
+/// Stands around a call of code that was loaded: control code, an FMU. When that calls fork(), a copy of the whole
+/// process comes back from the call, too: with a simulator, or its end of a call from one, that is there once already.
 class CopyGuard {
  public:
   CopyGuard();
@@ -16,4 +16,4 @@ class CopyGuard {
   static void end_copy(const char* function);
 };
 
-}  // namespace muro::control
+}  // namespace muro

@@ -7,11 +7,11 @@
 #include <cstring>
 #include <string_view>
 
-namespace muro::control {
+namespace muro {
 
 namespace {
 
-thread_local int calls = 0;  ///< of control code, in which this thread is
+thread_local int calls = 0;  ///< of loaded code, in which this thread is
 bool is_copy = false;
 
 /// In the new process, which has but the thread that called fork().
@@ -37,10 +37,10 @@ CopyGuard::~CopyGuard() { --calls; }
 
 void CopyGuard::end_copy(const char* function) {
   if (!is_copy) return;
-  write_to_standard_error("a copy of the process, which control code has made by fork(), came back from `");
+  write_to_standard_error("a copy of the process, which code that was loaded has made by fork(), came back from `");
   write_to_standard_error(function);
-  write_to_standard_error("` and was ended; what control code forks is to call exec or _exit\n");
+  write_to_standard_error("` and was ended; what it forks is to call exec or _exit\n");
   _exit(0);
 }
 
-}  // namespace muro::control
+}  // namespace muro
