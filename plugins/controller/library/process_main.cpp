@@ -43,6 +43,7 @@ class Server {
       std::perror("the shared memory");
       _exit(1);
     }
+    close(process_memory);  // control code that writes to all descriptors changes nothing
     memory_.keep_from_copies();
     header_ = reinterpret_cast<SharedHeader*>(memory_.data());
     leave_crash_notes_in(*header_);

@@ -341,6 +341,12 @@ TEST(IsolatedController, MayCloseAllDescriptorsAndGoesOn) {
                    "was loaded"));
 }
 
+TEST(IsolatedController, MayWriteToAllFilesAndChangesNothing) {
+  Failing team("write_to_all");
+  EXPECT_EQ(team.run(0.25), "it went well");
+  EXPECT_EQ(team.command(*team.a).linear.x(), 5) << "as it has said in this step";
+}
+
 TEST(IsolatedController, ThatIsNoLibraryIsRefusedInTheSameWords) {
   for (const auto& [library, message] : {std::pair{"no_symbol.so", "exports no `muro_controller`"},
                                          {"no_name.so", "its table has no name"},

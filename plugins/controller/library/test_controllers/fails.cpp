@@ -62,6 +62,12 @@ void sleep_long() { sleep(100); }
 void close_all() {
   for (int descriptor = 3; descriptor < 1024; ++descriptor) close(descriptor);
 }
+/// At the begin of all files that are open.
+void write_to_all() {
+  const std::string bytes(1 << 16, '\xff');
+  for (int descriptor = 3; descriptor < 1024; ++descriptor)
+    if (pwrite(descriptor, bytes.data(), bytes.size(), 0) < 0) continue;
+}
 void tell_process() { std::printf("process %d\n", int(getpid())); }
 /// Starts a process that would live on.
 void start_another() {
@@ -90,6 +96,7 @@ const struct {
              {"copy_itself", copy_itself},
              {"kill", [] { raise(SIGKILL); }},
              {"close_all", close_all},
+             {"write_to_all", write_to_all},
              {"tell_process", tell_process},
              {"close_all_and_tell",
               [] {
