@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "host/identify/record_text.hpp"
+#include "muro/toolkit/input_file.hpp"
 
 namespace muro::host {
 
@@ -105,15 +105,11 @@ MotorRecord parse_motor_record(const std::string& text, const std::string& name,
 }
 
 std::string read_record_text(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw SetupError(file + ": there is no such file, or it cannot be read");
-  std::string text, part(std::size_t(1) << 20, '\0');
-  while (in.read(part.data(), std::streamsize(part.size())), in.gcount() > 0) {
-    text.append(part.data(), std::size_t(in.gcount()));
-    if (text.size() > largest_record) throw SetupError(file + " is larger than 256 MiB, which no record is");
+  try {
+    return InputFile(file).rest(largest_record);
+  } catch (const Error& e) {
+    throw SetupError(e.what());
   }
-  if (in.bad() || (text.empty() && !in.eof())) throw SetupError(file + " cannot be read");
-  return text;
 }
 
 MotorRecord read_motor_record(const std::string& file, const RecordDefaults& defaults) {

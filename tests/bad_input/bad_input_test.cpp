@@ -121,6 +121,18 @@ TEST(WrongCommandLine, WithoutACommandTheCommandsAreNamed) {
   EXPECT_EQ(result.exit_code, 2);
 }
 
+TEST(InputsWithoutEnd, AreRefusedWithTheirBound) {
+  const test::ScratchFolder scratch;
+  const std::string scene = scratch.file("s.yaml", "duration: 0.1\n");
+  for (const std::string& arguments :
+       {"run " + scene + " --replay /dev/zero", std::string("identify /dev/zero --duty-gain 0.003")}) {
+    const auto said = run_command(muro_program + " " + arguments);
+    EXPECT_EQ(said.exit_code, 2) << arguments;
+    EXPECT_NE(said.output.find("/dev/zero has "), std::string::npos) << said.output;
+    EXPECT_NE(said.output.find(" MiB"), std::string::npos) << said.output;
+  }
+}
+
 TEST(FailedRun, StillWritesItsReportAndItsRecords) {
   const FailedRun run("motion.step_throws", BAD_PLUGIN_DIR "/throws");
   EXPECT_EQ(run.result.exit_code, 1) << run.result.output;

@@ -128,7 +128,7 @@ TEST(CompareAgainst, EveryLevelGetsARowForEveryRecording) {
 TEST(CompareAgainst, MistakesAreOneMessage) {
   const std::pair<std::string, std::string> cases[] = {
       {"", "--vary says what is compared, and is missing"},
-      {"--against none.csv", "none.csv: there is no such file"},
+      {"--against none.csv", "none.csv cannot be read: No such file or directory"},
       {"--against examples/motors/record_1.csv --joint bench/serfo",
        "there is no such joint (did you mean `bench/servo`?)"},
       {"--against examples/motors/bench.yaml", "bench.yaml:2:1: the header has no column `time`"},

@@ -124,7 +124,7 @@ TEST_F(IdentifyProgram, RecordsOfSeveralMotorsAreRefused) {
 TEST_F(IdentifyProgram, MistakesAreOneMessageAndWriteNothing) {
   folder.file("bad.csv", "# p_gain: 1\ntime,position,goal\n0,0,zero\n");
   const std::pair<std::string, std::string> cases[] = {
-      {"@none.csv", "there is no such file"},
+      {"@none.csv", "none.csv cannot be read: No such file or directory"},
       {"@bad.csv", "bad.csv:3:5: `zero` is no number"},
       {"@r0.csv", "give --duty-gain"},
       {"@r0.csv --model m9", "`m9` is none of m1, m2, m3, m4"},

@@ -5,12 +5,12 @@
 #include <charconv>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <tuple>
 
 #include "muro/algorithm.hpp"
+#include "muro/toolkit/input_file.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::inputs {
@@ -147,17 +147,14 @@ std::string end_line(const RunEnd& end) {
 }
 
 Recording read_recording(const std::string& path) {
-  const auto fail = [&](const char* what) {
-    throw Error("the recording " + quote(path) + " " + what + ": " + std::strerror(errno));
-  };
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail("cannot be opened");
+  constexpr std::size_t longest_line = 64 << 20;
+  InputFile file(path);
   Recording out;
   std::map<std::string, std::string_view> channels;
   std::tuple<std::uint64_t, std::int64_t> last{0, 0};
   std::string text;
   std::size_t number = 0;
-  while (std::getline(file, text)) {
+  while (file.line(text, longest_line)) {
     Line line(path, ++number, text);
     if (number == 1) {
       read_header(line, out);
@@ -173,7 +170,7 @@ Recording read_recording(const std::string& path) {
       if (text != columns) line.fail("this line must be `" + std::string(columns) + "`");
       continue;
     }
-    if (file.eof()) line.fail("the last line is cut short; remove it to replay what is before it");
+    if (file.is_cut()) line.fail("the last line is cut short; remove it to replay what is before it");
     RecordedInput input;
     input.epoch = line.number<std::uint64_t>("epoch");
     input.time = line.number<std::int64_t>("time");
@@ -190,7 +187,6 @@ Recording read_recording(const std::string& path) {
     line.end();
     out.inputs.push_back(input);
   }
-  if (file.bad()) fail("cannot be read");
   if (number < 2) Line(path, number + 1, "").fail("this is no recording of recorder.inputs: it has no header");
   return out;
 }
