@@ -13,6 +13,7 @@
 #include "muro/algorithm.hpp"
 #include "plugins/common/parser_process/limits.hpp"
 #include "plugins/common/text/lfs_pointer.hpp"
+#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/one_line.hpp"
 
 namespace muro::mesh {
@@ -71,8 +72,8 @@ MeshFile::MeshFile(const std::string& path, const Vec3& scale, unsigned unused, 
   if (!std::filesystem::is_regular_file(path, code))
     throw fail("is not there; give the path of a DAE, STL, OBJ or glTF file");
   if (!scale.allFinite() || scale.cwiseAbs().minCoeff() <= 0)
-    throw fail("has a scale of " + std::to_string(scale.x()) + " " + std::to_string(scale.y()) + " " +
-               std::to_string(scale.z()) + "; each factor must be finite and not 0");
+    throw fail("has a scale of " + number_text(scale.x()) + " " + number_text(scale.y()) + " " +
+               number_text(scale.z()) + "; each factor must be finite and not 0");
   if (is_lfs_pointer(beginning_of(path))) throw fail(std::string(is_lfs_pointer_text));
   importer_.SetIOHandler(new Files);  // which the importer owns
   importer_.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, int(unused));

@@ -9,6 +9,7 @@
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/position_drive/settled_modes.hpp"
+#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::multibody {
@@ -311,7 +312,7 @@ std::string WorldRobot::likely_cause() const {
   const RobotState& s = state_;
   if (!watch_.allows_depth(s.overlap.depth)) return watch::cause_of_depth;
   if (s.overlap.obstacle && s.overlap.depth > 0.01)
-    return "it is " + std::to_string(s.overlap.depth) + " m deep in " + quote(*s.overlap.obstacle) +
+    return "it is " + number_text(s.overlap.depth) + " m deep in " + quote(*s.overlap.obstacle) +
            ": start it clear of that";
   double force = 0, least = model_.mass, most = 0;
   for (const Wrench& w : s.external) force = std::max(force, w.force.norm());
@@ -320,7 +321,7 @@ std::string WorldRobot::likely_cause() const {
     most = std::max(most, body.inertia.mass);
   }
   if (constexpr double hard_push = 1e4; force > hard_push * model_.mass)  // m/s^2
-    return "an external force of " + std::to_string(force) + " N acts on it";
+    return "an external force of " + number_text(force) + " N acts on it";
   if (constexpr double far_apart = 1e3; most > far_apart * least)
     return "masses of its links differ by a factor of " + std::to_string(std::llround(most / least));
   return "forces that grow from step to step, since steps are too long for its drives, joints or contacts";

@@ -8,6 +8,7 @@
 #include "keys.hpp"
 #include "plugins/common/constant_twist/constant_twist.hpp"
 #include "plugins/common/text/counted.hpp"
+#include "plugins/common/text/number.hpp"
 #include "scratch.hpp"
 
 namespace muro::scanner {
@@ -21,8 +22,8 @@ constexpr Key<Pose> key_sweep_pose{"laser.sweep.pose", "m", "where the device wa
 
 void check_interval(const char* low_name, double low, const char* high_name, double high) {
   if (low > high)
-    throw Error(std::string(low_name) + " (" + std::to_string(low) + ") is greater than " + high_name + " (" +
-                std::to_string(high) + "); exchange them");
+    throw Error(std::string(low_name) + " (" + number_text(low) + ") is greater than " + high_name + " (" +
+                number_text(high) + "); exchange them");
 }
 
 Grid read_grid(const Parameters& p) {
@@ -35,7 +36,7 @@ Grid read_grid(const Parameters& p) {
   check_interval("min_angle", grid.min_angle, "max_angle", grid.max_angle);
   check_interval("min_elevation", grid.min_elevation, "max_elevation", grid.max_elevation);
   if (grid.max_angle - grid.min_angle > 2 * pi + 1e-9)
-    throw Error("min_angle to max_angle is " + std::to_string(grid.max_angle - grid.min_angle) +
+    throw Error("min_angle to max_angle is " + number_text(grid.max_angle - grid.min_angle) +
                 " rad; a row goes round once at most (6.283186)");
   if (std::uint64_t(grid.columns) * grid.rows > (1u << 24))
     throw Error("rays * rows is " + std::to_string(std::uint64_t(grid.columns) * grid.rows) +
@@ -67,8 +68,8 @@ void Scanner::connect(Connector& c) {
   min_range_ = p.real("min_range");
   max_range_ = p.real("max_range");
   if (min_range_ >= max_range_)
-    throw Error("min_range (" + std::to_string(min_range_) + " m) must be less than max_range (" +
-                std::to_string(max_range_) + " m)");
+    throw Error("min_range (" + number_text(min_range_) + " m) must be less than max_range (" +
+                number_text(max_range_) + " m)");
   mounting_ = mounting_of(p);
   read_pattern(p);
   if (p.real("divergence") > 0 || p.boolean("incidence")) beam_.emplace(p.real("divergence"));

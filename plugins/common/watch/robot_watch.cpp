@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "parameters.hpp"
+#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::watch {
@@ -159,7 +160,7 @@ std::string RobotWatch::problem(const Pose& pose, const Twist& twist, const Surr
     cause = cause_of_depth;
     cause += "; try a higher rate, or an engine";
   } else if (overlap.obstacle && overlap.depth > told_depth) {
-    cause = "it is " + std::to_string(overlap.depth) + " m deep in " + quote(*overlap.obstacle);
+    cause = "it is " + number_text(overlap.depth) + " m deep in " + quote(*overlap.obstacle);
     cause += ": start it clear of that, or move it less in a step";
   } else {
     cause = growing_forces;

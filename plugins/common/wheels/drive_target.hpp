@@ -10,6 +10,7 @@
 #include "muro/robot.hpp"
 #include "muro/vocabulary.hpp"
 #include "parameters.hpp"
+#include "plugins/common/text/number.hpp"
 
 namespace muro::wheels {
 
@@ -26,7 +27,7 @@ inline DriveTarget connect_drive_target(Connector& c, const RobotView& robot, st
   const double max_speed = std::min(limits.velocity, c.parameters().real(max_wheel_speed.name));
   if (!(max_speed > 0))
     throw Error("the joint `" + std::string(c.object_name(joint)) + "` has the velocity limit " +
-                std::to_string(max_speed) + "; a driven wheel needs one above 0, or none");
+                number_text(max_speed) + "; a driven wheel needs one above 0, or none");
   return {c.optional_output(joint, keys::joint_velocity_target), max_speed};
 }
 

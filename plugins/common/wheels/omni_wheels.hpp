@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "plugins/common/text/counted.hpp"
+#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "wheel_finder.hpp"
 
@@ -139,7 +140,7 @@ inline std::vector<OmniWheel> find_omni_wheels(const Connector& connector, const
       w.roller_angle = signs[i] * (given.empty() ? std::numbers::pi / 4 : given[0]);
     if (!(std::abs(w.roller_angle) < 1.5))
       throw Error(
-          "`roller_angle` is " + std::to_string(w.roller_angle) +
+          "`roller_angle` is " + number_text(w.roller_angle) +
           " rad; a wheel whose rollers turn about its own axle drives nothing: give an angle between -1.5 and 1.5");
   }
   return wheels;

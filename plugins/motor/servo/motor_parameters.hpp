@@ -9,6 +9,7 @@
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/motor_model.hpp"
 #include "plugins/common/part_file/part_file.hpp"
+#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro {
@@ -99,7 +100,7 @@ class MotorParameterReader {
   }
   double positive(std::string_view name, const std::string& unit) const {
     const double x = value(name);
-    if (!(x > 0)) throw Error(quote(name) + " is " + std::to_string(x) + "; a motor needs it above 0, in " + unit);
+    if (!(x > 0)) throw Error(quote(name) + " is " + number_text(x) + "; a motor needs it above 0, in " + unit);
     return x;
   }
   double at_least_0(std::string_view name) const {
@@ -108,7 +109,7 @@ class MotorParameterReader {
     return x;
   }
   Error wrong(std::string_view name, const std::string& allowed) const {
-    return Error(quote(name) + " is " + std::to_string(value(name)) + "; it is " + allowed);
+    return Error(quote(name) + " is " + number_text(value(name)) + "; it is " + allowed);
   }
 
   const Parameters& p_;

@@ -13,6 +13,7 @@
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
+#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "voltage_drive.hpp"
 
@@ -141,7 +142,7 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
     const double stall = p.real("stall_torque"), no_load_speed = p.real("no_load_speed");
     const double max_torque = p.real("max_torque");
     if ((stall > 0) != (no_load_speed > 0))
-      throw Error("`stall_torque` is " + std::to_string(stall) + " N m and `no_load_speed` " +
+      throw Error("`stall_torque` is " + number_text(stall) + " N m and `no_load_speed` " +
                   std::to_string(no_load_speed) + " rad/s; the torque-speed line needs both, or leave both out");
     if (stall > 0) motor_.stall = stall * ratio, motor_.slope = stall / no_load_speed * ratio * ratio;
     if (max_torque > 0) motor_.max_effort = max_torque * ratio;
@@ -165,8 +166,8 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
       throw Error("`integral` belongs to mode `position`; in mode `velocity` `stiffness` is the gain of the integral");
     if (gear_.rotor_inertia > 0) return;
     for (const std::string_view name : {"friction", "backlash", "gear_stiffness"})
-      if (p.real(name) > 0) throw needs_rotor(name, std::to_string(p.real(name)));
-    if (p.real("efficiency") < 1) throw needs_rotor("efficiency", std::to_string(p.real("efficiency")));
+      if (p.real(name) > 0) throw needs_rotor(name, number_text(p.real(name)));
+    if (p.real("efficiency") < 1) throw needs_rotor("efficiency", number_text(p.real("efficiency")));
     if (encoder_on_motor_) throw needs_rotor("encoder", "motor");
   }
   static Error needs_rotor(std::string_view name, const std::string& value) {

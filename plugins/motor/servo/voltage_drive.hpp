@@ -7,6 +7,7 @@
 
 #include "motor_parameters.hpp"
 #include "muro/toolkit/joint_drives.hpp"
+#include "plugins/common/text/number.hpp"
 
 namespace muro::servo {
 
@@ -65,12 +66,12 @@ class VoltageDrive {
   }
   static bool is_command(double x) { return x >= 0 && x <= std::numeric_limits<double>::max(); }
   Error no_command(const KeyInfo& key, double value) const {
-    return Error(quote(joint_ + ":" + std::string(key.name)) + " is " + std::to_string(value) +
+    return Error(quote(joint_ + ":" + std::string(key.name)) + " is " + number_text(value) +
                  (key.unit == "1" ? "" : " " + std::string(key.unit)) + "; command a finite number, 0 or more");
   }
   Error too_slow(double dt) const {
-    return Error("the back EMF would stop the joint within " + std::to_string(inertia_ / model_.back_emf_damping()) +
-                 " s, which is less than the period of " + std::to_string(dt) +
+    return Error("the back EMF would stop the joint within " + number_text(inertia_ / model_.back_emf_damping()) +
+                 " s, which is less than the period of " + number_text(dt) +
                  " s; give the motor its `armature`, or a higher `rate`");
   }
 

@@ -17,6 +17,9 @@ namespace {
 constexpr std::array<std::string_view, 9> joint_types = {"revolute",  "continuous", "prismatic", "fixed",  "universal",
                                                          "revolute2", "ball",       "screw",     "gearbox"};
 
+/// Nothing slides on it.
+constexpr double most_friction = 1e6;
+
 /// Of <drake:rotor_inertia> and <drake:gear_ratio>: what the joint feels stays within the range of inertias.
 constexpr double max_rotor_value = 1e7;
 
@@ -78,10 +81,23 @@ bool Check::complete(Element& e, std::string_view section) {
     return complete_shape(e);
   } else if (section == "metal" || section == "specular") {
     find_picture(e, "albedo_map");
+  } else if (section == "ode friction") {
+    for (const char* name : {"mu", "mu2"})
+      if (Element* friction = e.FirstChildElement(name)) take_endless(*friction);
   } else if (section == "include") {
     return complete_include(e);
   }
   return true;
+}
+
+/// A negative coefficient of friction stands for one without limit, which libsdformat does not read.
+void Check::take_endless(Element& friction) {
+  const std::vector<double> value = values_of(&friction);
+  if (value.size() != 1 || !(value[0] < 0)) return;
+  problems_.note(location_of(friction),
+                 concat("a friction of ", value[0], " has no limit, as in Gazebo: it is taken as ", most_friction));
+  friction.DeleteChildren();
+  friction.SetText(model_file::text_of({most_friction}).c_str());
 }
 
 /// Puts the path of the file in place of the name of a picture in a child of `owner`; false where there is none.

@@ -52,6 +52,7 @@ class Check {
   void prepare(Element& e, std::string_view section);
   bool complete(Element& e, std::string_view section);
   bool complete_joint(Element& joint);
+  void take_endless(Element& friction);
   void take_rotor(Element& joint, const std::string& owner, bool has_one_axis);
   void take_mimic(Element& joint, Element& axis, int number);
   bool complete_shape(Element& e);

@@ -152,6 +152,16 @@ TEST(SdfModels, EveryShapeIsReadWithItsPlaceAndSurface) {
   EXPECT_EQ(robot.tree.texts()[shapes[5].mesh], mesh);
 }
 
+TEST(SdfModels, AFrictionBelowZeroHasNoLimit) {
+  const Robot robot =
+      robot_of(model(link("a",
+                          "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry>\n<surface><friction>"
+                          "<ode><mu>-1</mu><mu2>-1</mu2></ode></friction></surface></collision>")));
+  EXPECT_EQ(robot.constants("a", keys::collision_shapes).at(0).surface.friction, 1e6);
+  ASSERT_EQ(robot.problems.size(), 2u) << "one for each direction";
+  EXPECT_EQ(robot.problems[0], "note 4:25 a friction of -1 has no limit, as in Gazebo: it is taken as 1e+06");
+}
+
 TEST(SdfModels, VisualsHaveTheDiffuseColourAndTheirTransparency) {
   const auto color = [](const std::string& inside) {
     const Robot robot = robot_of(model(

@@ -13,6 +13,7 @@
 #include "neighbour_errors.hpp"
 #include "parameters.hpp"
 #include "plugins/common/text/counted.hpp"
+#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "published.hpp"
 #include "readings.hpp"
@@ -215,7 +216,7 @@ class SensorError final : public Algorithm {
   static void check_delay(const GivenErrors& given, double delay, const ReadingShape& shape, double period) {
     constexpr double most = 1e7;
     if (period > 0 && DelayLine::samples(delay, period) * double(shape.components) > most)
-      given.fail("delay", "a delay of " + std::to_string(delay) +
+      given.fail("delay", "a delay of " + number_text(delay) +
                               " s at this rate keeps more than 10 million numbers of " + quote(shape.name) +
                               "; give it a shorter one");
   }
@@ -230,8 +231,8 @@ class SensorError final : public Algorithm {
     if (given.given("minimum")) q.minimum = given.real("minimum");
     if (given.given("maximum")) q.maximum = given.real("maximum");
     if (q.minimum > q.maximum)
-      given.fail("minimum", "minimum (" + std::to_string(q.minimum) + ") is greater than maximum (" +
-                                std::to_string(q.maximum) + ")");
+      given.fail("minimum",
+                 "minimum (" + number_text(q.minimum) + ") is greater than maximum (" + number_text(q.maximum) + ")");
   }
 
   std::optional<Part> part_;

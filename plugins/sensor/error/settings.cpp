@@ -5,6 +5,7 @@
 
 #include "muro/algorithm.hpp"
 #include "plugins/common/text/counted.hpp"
+#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro {
@@ -111,8 +112,8 @@ BiasDrift::Settings drift_of(const GivenErrors& given, const ReadingShape& readi
   if (name == "gauss_markov_density")
     d.gauss_markov_sigma = d.gauss_markov_sigma.map([&](double k) { return k * std::sqrt(d.gauss_markov_time / 2); });
   if (d.flicker_from > d.flicker_to)
-    given.fail("flicker_from", "flicker_from (" + std::to_string(d.flicker_from) + " s) is greater than flicker_to (" +
-                                   std::to_string(d.flicker_to) + " s)");
+    given.fail("flicker_from", "flicker_from (" + number_text(d.flicker_from) + " s) is greater than flicker_to (" +
+                                   number_text(d.flicker_to) + " s)");
   return d;
 }
 

@@ -9,6 +9,7 @@
 #include "plugins/common/internal_sensor/link_load.hpp"
 #include "plugins/common/internal_sensor/mounted.hpp"
 #include "plugins/common/internal_sensor/property_uses.hpp"
+#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace {
@@ -79,8 +80,8 @@ class FootSensor final : public PerRobotAlgorithm<Foot> {
     release_ = p.given("release_threshold") && p.real("release_threshold") >= 0 ? p.real("release_threshold")
                                                                                 : 0.5 * threshold_;
     if (release_ > threshold_)
-      throw Error("release_threshold (" + std::to_string(release_) + " N) is greater than threshold (" +
-                  std::to_string(threshold_) + " N); a foot is released by less than what it is put down with");
+      throw Error("release_threshold (" + number_text(release_) + " N) is greater than threshold (" +
+                  number_text(threshold_) + " N); a foot is released by less than what it is put down with");
   }
 
   Foot connect_robot(Connector& c, const Item& item) override {

@@ -6,6 +6,7 @@
 #include "plugins/common/geodetic/keys.hpp"
 #include "plugins/common/internal_sensor/mounted.hpp"
 #include "plugins/common/internal_sensor/property_uses.hpp"
+#include "plugins/common/text/number.hpp"
 
 namespace {
 
@@ -66,8 +67,8 @@ class Gps final : public PerRobotAlgorithm<Receiver> {
   void read_parameters(const Parameters& p) override {
     const std::span<const double> at = p.reals("reference");
     if (!(std::abs(at[0]) <= 90) || !(std::abs(at[1]) <= 360) || !std::isfinite(at[2]))
-      throw Error("reference is " + std::to_string(at[0]) + ", " + std::to_string(at[1]) + ", " +
-                  std::to_string(at[2]) + "; give a latitude from -90 to 90 deg, a longitude and an altitude in m");
+      throw Error("reference is " + number_text(at[0]) + ", " + number_text(at[1]) + ", " + number_text(at[2]) +
+                  "; give a latitude from -90 to 90 deg, a longitude and an altitude in m");
     reference_ = {at[0], at[1], at[2]};
     plane_ = LocalPlane::at(reference_);
     to_east_ = rotation_about(Vec3::UnitZ(), p.real("heading"));

@@ -10,6 +10,7 @@
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/common/internal_sensor/mounted.hpp"
 #include "plugins/common/link_acceleration/link_motion.hpp"
+#include "plugins/common/text/number.hpp"
 #include "plugins/common/wheels/omni_jacobian.hpp"
 #include "plugins/common/wheels/planar_motion.hpp"
 #include "plugins/common/wheels/side_wheels.hpp"
@@ -99,8 +100,7 @@ class Odometry final : public PerRobotAlgorithm<Vehicle> {
     noise_ = odometry::MotionNoise(p.reals("alphas"), p.text("drive") == "omni");
     step_ = p.integer("counts") > 0 ? 2 * std::numbers::pi / double(p.integer("counts")) : 0;
     for (const double e : p.reals("radius_error"))
-      if (!(e > -1))
-        throw Error("radius_error is " + std::to_string(e) + "; a radius stays above 0: give more than -1");
+      if (!(e > -1)) throw Error("radius_error is " + number_text(e) + "; a radius stays above 0: give more than -1");
   }
 
   Vehicle connect_robot(Connector& c, const Item& item) override {
