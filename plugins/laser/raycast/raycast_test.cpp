@@ -289,9 +289,9 @@ TEST(LaserRaycast, ExplainsWhatIsWrongWithItsParameters) {
   };
   using Strings = std::vector<std::pair<std::string, std::map<std::string, ParameterInput>>>;
   for (const auto& [expected, parameters] :
-       Strings{{"min_angle (1.000000) is greater than max_angle (0.000000)", {{"min_angle", 1.0}, {"max_angle", 0.0}}},
+       Strings{{"min_angle (1) is greater than max_angle (0)", {{"min_angle", 1.0}, {"max_angle", 0.0}}},
                {"goes round once at most", {{"min_angle", -4.0}, {"max_angle", 4.0}}},
-               {"min_range (5.000000 m) must be less than max_range", {{"min_range", 5.0}, {"max_range", 4.0}}},
+               {"min_range (5 m) must be less than max_range", {{"min_range", 5.0}, {"max_range", 4.0}}},
                {"directions and rays are both given",
                 {{"directions", std::vector<double>{0, 0}}, {"rays", std::int64_t(3)}}},
                {"directions has 3 numbers", {{"directions", std::vector<double>{0, 0, 1}}}},

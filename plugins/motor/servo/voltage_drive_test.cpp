@@ -204,7 +204,7 @@ TEST(VoltageDrive, MistakesAreNamedWithAdviceToo) {
       {{{"part", "mx64"}, {"friction_model", "m7"}}, "`friction_model` is `m7`, but mx64 has `m1`, `m4`"},
       {{{"part", "mx64"}, {"stiffness", 3.0}}, "`stiffness` belongs to servos without `part` and `kt`"},
       {{{"part", "mx64"}, {"mode", "velocity"}}, "follows positions"},
-      {{{"kt", 1.0}}, "`supply_voltage` is 0.000000; a motor needs it above 0, in V"},
+      {{{"kt", 1.0}}, "`supply_voltage` is 0; a motor needs it above 0, in V"},
       {{{"stiffness", 3.0}, {"resistance", 1.0}}, "`resistance` belongs to a motor driven by a voltage"},
       {{{"part", file}}, ":4:3: there is no parameter `resistence` (did you mean `resistance`?)"},
       {{{"part", "nowhere.yaml"}}, "cannot be read"},
@@ -258,7 +258,7 @@ TEST(VoltageDrive, CommandsThatAreNoNumbersAreNamed) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   for (const auto& [name, value, text] :
        {std::tuple("servo.supply_voltage", nan, "`r/joint:servo.supply_voltage` is nan V; command a finite number"),
-        std::tuple("servo.supply_voltage", -7.4, "`r/joint:servo.supply_voltage` is -7.400000 V; command a finite"),
+        std::tuple("servo.supply_voltage", -7.4, "`r/joint:servo.supply_voltage` is -7.4 V; command a finite"),
         std::tuple("servo.p_gain", nan, "`r/joint:servo.p_gain` is nan; command a finite number, 0 or more"),
         std::tuple("servo.p_gain", inf, "`r/joint:servo.p_gain` is inf; command a finite number, 0 or more")}) {
     VoltageBench s(Parameters{{"part", "mx64"}});
