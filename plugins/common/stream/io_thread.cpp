@@ -7,7 +7,9 @@
 
 #include <boost/asio/executor_work_guard.hpp>
 #include <csignal>
+#include <system_error>
 
+#include "muro/algorithm.hpp"
 #include "plugins/common/stream/system_error.hpp"
 
 namespace muro::stream {
@@ -68,7 +70,12 @@ IoThread::IoThread() : wake_(context_, new_event()) {
   taken_.reserve(usual_sources);
   wait_for_signals();
   const BlockedSignals blocked;
-  thread_ = std::thread([this] { run(context_); });
+  try {
+    thread_ = std::thread([this] { run(context_); });
+  } catch (const std::system_error& e) {  // limits of users, containers and memory
+    throw Error("no thread can be started for streams: " + e.code().message() +
+                "; this user or container has as many as it may, or there is no memory for another");
+  }
   ::pthread_setname_np(thread_.native_handle(), "muro streams");
 }
 
