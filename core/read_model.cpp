@@ -8,6 +8,7 @@
 
 #include "core/c_locale.hpp"
 #include "core/error.hpp"
+#include "core/missing_file.hpp"
 #include "core/running_call.hpp"
 
 namespace muro {
@@ -21,7 +22,7 @@ void read_file(Registry& registry, const std::string& path, const std::string& w
   std::error_code code;
   const bool exists = std::filesystem::exists(path, code);
   if (code) throw SetupError(fmt::format("{} cannot be read: {}", what, code.message()));
-  if (!exists) throw SetupError(what + " does not exist");
+  if (!exists) throw SetupError(what + why_missing(path));
   abi::ErrorText error;
   abi::ReaderInstance* reader = registry.reader_for(path).create(&error);
   if (!reader) throw SetupError(fmt::format("the reader for {} cannot be created: {}", path, error.view()));

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "core/missing_file.hpp"
 #include "muro/toolkit/limits.hpp"
 
 namespace muro::host {
@@ -67,6 +68,7 @@ std::string file_of(MapReader& map, const std::string& key, Problems& problems) 
                                                                  : nullptr;
   if (problem)
     problems.add(value.location, key + " file " + (value.scalar.empty() ? "" : path + " ") + problem +
+                                     (value.scalar.empty() ? "" : nearest_file(path)) +
                                      "; correct its path, which starts at the folder of this file");
   return path;
 }

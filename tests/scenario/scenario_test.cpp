@@ -120,9 +120,10 @@ TEST(Scenario, TexturesOfShapesAreFilesBesideIt) {
   const Scenario tinted = read_scenario(texts("grass.png", ", color: [1, 0.5, 0]"), {});
   EXPECT_EQ(tinted.objects.at(0).shape.color, Eigen::Vector4d(1, 0.5, 0, 1));
   const std::string path = texts("gras.png", "");
-  EXPECT_EQ(test::complaint_of([&] { read_scenario(path, {}); }),
-            path + ":3:47: texture file " + folder.path("gras.png") +
-                " does not exist; correct its path, which starts at the folder of this file");
+  EXPECT_EQ(
+      test::complaint_of([&] { read_scenario(path, {}); }),
+      path + ":3:47: texture file " + folder.path("gras.png") +
+          " does not exist (did you mean `grass.png`?); correct its path, which starts at the folder of this file");
 }
 
 TEST(Scenario, SequencesRunAsOneItemInTheirOwnOrder) {

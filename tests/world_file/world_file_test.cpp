@@ -145,9 +145,16 @@ struct Wrong {
   const char* message;
 };
 
+TEST(WorldFileOfAScenario, ThatDoesNotExistIsToldWithItsFolderAndTheNearestName) {
+  const WorldFile file("", "world: {file: wrld.sdf}\n");
+  const auto result = file.check();
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(result.output.starts_with("s.yaml:1:15: world wrld.sdf does not exist in /")) << result.output;
+  EXPECT_TRUE(result.output.ends_with(" (did you mean `world.sdf`?)\n")) << result.output;
+}
+
 TEST(WorldFileOfAScenario, MistakesAreOneMessageWithThePlaceAndExitCode2) {
   const Wrong all[] = {
-      {"", "world: {file: yard.sdf}\n", "s.yaml:1:15: world yard.sdf does not exist\n"},
       {"", "world: {file: " MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf}\n",
        "s.yaml:1:15: world " MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf: " MURO_TEST_SOURCE_DIR
        "/examples/models/rover.urdf describes a robot, not a world; name it as the `model` of a robot\n"},
