@@ -338,7 +338,7 @@ int exit_code_of(int argc, char** argv) {
     fmt::print(stderr, "{}\n", e.what());
     return 1;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "the scene needs more memory than there is; make it smaller\n");
+    fmt::print(stderr, "{}\n", muro::host::lack_of_memory);
     return 2;
   } catch (const std::exception& e) {
     if (!standard_output_failed()) fmt::print(stderr, "muro failed: {}\n", muro::message_text(e.what()));

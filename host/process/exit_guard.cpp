@@ -17,19 +17,18 @@ namespace {
 
 std::atomic<pid_t> guarded_process{0};  // a process that a library has forked may exit as it likes
 
-/// `how`: the function.
-void check(const char* how) {
+/// `what`: it has done.
+void check(const char* what) {
   if (guarded_process.load() != getpid()) return;
   SignalText line;
   const RunningCall& call = running_call();
   if (call.callee.load()) {
     add_who(line, call);
-    line.add(" ended the program by ");
-    line.add(how);
+    line.add(what);
     add_where(line, call);
   } else {
-    line.add("a library ended the program by ");
-    line.add(how);
+    line.add("a library");
+    line.add(what);
   }
   line.add("; files that were being written end in .part\n");
   std::signal(SIGPIPE, SIG_IGN);
@@ -37,7 +36,7 @@ void check(const char* how) {
   line.write_to(STDERR_FILENO);
   ExitGuard::leave(1);
 }
-void check_exit() { check("exit()"); }
+void check_exit() { check(" ended the program by exit()"); }
 
 }  // namespace
 
@@ -57,7 +56,7 @@ void ExitGuard::leave(int code) {
 }
 
 void ExitGuard::leave_for_others(int code) {
-  check("_exit()");
+  check(" ended the program by _exit()");
   leave(code);
 }
 

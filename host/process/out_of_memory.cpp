@@ -37,8 +37,8 @@ void end() {
       add_where(line, call);
       line.add(": ");
     }
-    line.add(
-        "the scene needs more memory than there is; make it smaller; files that were being written end in .part\n");
+    line.add(lack_of_memory);
+    line.add("; files that were being written end in .part\n");
     line.write_to(STDERR_FILENO);
     ExitGuard::leave(2);
   }

@@ -11,6 +11,7 @@
 #include "core/output_registry.hpp"
 #include "host/names.hpp"
 #include "host/process/exit_guard.hpp"
+#include "host/process/out_of_memory.hpp"
 #include "host/scenario/algorithms.hpp"
 #include "host/scenario/body.hpp"
 #include "host/scenario/initial_state.hpp"
@@ -346,7 +347,7 @@ BuiltScenario build(Scenario scenario, Registry& registry, const std::function<v
   try {
     return built(std::move(scenario), registry, add_more);
   } catch (const std::bad_alloc&) {
-    throw SetupError(fmt::format("{}: the scene needs more memory than there is; make it smaller", file));
+    throw SetupError(fmt::format("{}: {}", file, lack_of_memory));
   }
 }
 

@@ -68,7 +68,7 @@ std::string file_of(MapReader& map, const std::string& key, Problems& problems) 
                                                                  : nullptr;
   if (problem)
     problems.add(value.location, key + " file " + (value.scalar.empty() ? "" : path + " ") + problem +
-                                     (value.scalar.empty() ? "" : nearest_file(path)) +
+                                     (value.scalar.empty() || fs::exists(path, code) ? "" : nearest_file(path)) +
                                      "; correct its path, which starts at the folder of this file");
   return path;
 }

@@ -171,7 +171,7 @@ bool SceneryContacts::touches_robots(std::uint32_t robot, std::span<const Contac
   if (known.list.revision() != known.robots_revision || contacts.size() != known.robots_length) {
     known.robots_revision = known.list.revision(), known.robots_length = contacts.size();
     known.touches_robots =
-        std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) { return bodies_[c.other].twist; });
+        std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) { return bodies_.moves(c.other); });
   }
   return known.touches_robots;
 }
@@ -189,7 +189,7 @@ void SceneryContacts::analyse(std::uint32_t robot, std::span<const Contact> cont
   known.anchors_match = false;
   known.only_scenery =
       contacts.size() <= max_contacts && std::none_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
-        return bodies_[c.other].twist || c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0;
+        return bodies_.moves(c.other) || c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0;
       });
   if (!known.only_scenery) return;
   KernelRobot& view = known.view;

@@ -30,7 +30,6 @@ void Service::begin_step(std::int64_t time, std::int64_t period) {
   served_.is_complete = false;
   in_step_ = true;
   last_news_ = std::chrono::steady_clock::now();
-  is_told_ = false;
   if (!served_.run.is_paused()) served_.pauser.reset();
   spent_ = {};
 }
@@ -57,7 +56,7 @@ void Service::end_pause_of(std::uint32_t client) {
 
 std::optional<Pauser> Service::who_keeps_it_waiting() {
   const bool is_long = std::chrono::steady_clock::now() - last_news_ > long_pause;
-  if (!served_.pauser || !is_long || std::exchange(is_told_, true)) return std::nullopt;
+  if (!served_.pauser || !is_long || std::exchange(told_news_, last_news_) == last_news_) return std::nullopt;
   return served_.pauser;
 }
 
@@ -96,7 +95,6 @@ void Service::forget_who_left() {
 
 void Service::received(std::uint32_t client, std::string_view line) {
   last_news_ = std::chrono::steady_clock::now();
-  is_told_ = false;
   const auto found = conversations_.find(client);
   if (found == conversations_.end() || found->second.is_over || is_blank(line)) return outlet_.answered();
   Conversation& c = found->second;

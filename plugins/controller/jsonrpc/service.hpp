@@ -100,7 +100,7 @@ class Service final : public RequestDone {
   std::chrono::nanoseconds time_in_a_step_ = std::chrono::nanoseconds::max(), spent_{0};
   std::uint32_t first_ = 0;                          ///< of clients in the next step
   std::chrono::steady_clock::time_point last_news_;  ///< when the run went on, or a client said something
-  bool is_told_ = false;                             ///< of who_keeps_it_waiting(), since then
+  std::chrono::steady_clock::time_point told_news_;  ///< those that were the last when who_keeps_it_waiting() told
 };
 
 }  // namespace muro::jsonrpc

@@ -144,10 +144,10 @@ class FakeOutlet final : public Outlet {
   std::vector<std::uint32_t> ended;
   std::map<std::uint32_t, bool> held;
   std::size_t answers = 0, changes = 0;
-  bool is_full = false, is_full_for_updates = false, is_slow = false;
+  bool is_full = false, is_full_for_updates = false, is_slow = false, is_slow_for_updates = false;
 
   bool has_room(std::uint32_t) const override { return !is_slow; }
-  bool has_room_for_updates(std::uint32_t) const override { return true; }  // send_update tells
+  bool has_room_for_updates(std::uint32_t) const override { return !is_slow_for_updates; }
   bool send(std::uint32_t client, std::string_view line) override {
     if (!is_full) sent[client] += line;
     return !is_full;

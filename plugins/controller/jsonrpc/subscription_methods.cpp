@@ -17,6 +17,7 @@ constexpr std::size_t most_subscribed_numbers = 200'000;  ///< of a client
 std::vector<PropertyName> subscribed(const Call& c, std::size_t& numbers) {
   const SceneNames& scene = c.served.scene;
   std::vector<PropertyName> all;
+  const Encoding encoding = encoding_of(c.params);
   std::size_t of_others = 0;
   for (const Subscription& s : c.client.subscriptions) of_others += s.numbers();
   for (const std::string& pattern : c.params.texts("properties", most_subscribed)) {
@@ -27,7 +28,7 @@ std::vector<PropertyName> subscribed(const Call& c, std::size_t& numbers) {
       if (!has_values(p)) throw RpcError{Code::refused, quote(name.text) + " is not made of numbers"};
       const auto is_same = [&](const PropertyName& other) { return other.text == name.text; };
       if (std::any_of(all.begin(), all.end(), is_same)) continue;
-      numbers += cost_of(p, encoding_of(c.params));
+      numbers += cost_of(p, encoding);
       all.push_back(std::move(name));
     }
   }

@@ -241,6 +241,19 @@ TEST(ClientsThatDoNotRead, HaveNothingComputed) {
   EXPECT_EQ(ids_of(d.heard()), "1 ");
 }
 
+TEST(ClientsThatDoNotRead, LoseUpdatesAndAreToldHowMany) {
+  Dialogue d;
+  d.say(request("subscribe", R"({"properties":"rover:flag","rate":50})"));
+  d.service.send_updates();
+  d.heard();
+  d.outlet.is_slow_for_updates = true;
+  for (int i = 0; i < 3; ++i) d.next_step(), d.service.send_updates();
+  EXPECT_EQ(d.heard(), "");
+  d.outlet.is_slow_for_updates = false;
+  d.next_step(), d.service.send_updates();
+  EXPECT_EQ(Json::parse(d.heard())["params"]["dropped"], 3);
+}
+
 TEST(ClientsThatDoNotRead, AreNotReadFrom) {
   Dialogue d;
   d.outlet.is_slow = true;

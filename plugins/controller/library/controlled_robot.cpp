@@ -12,6 +12,7 @@
 #include "outcome_text.hpp"
 #include "plugins/common/radio/keys.hpp"
 #include "plugins/common/text/counted.hpp"
+#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/one_line.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "remote_instance.hpp"
@@ -84,10 +85,10 @@ void ControlledRobot::check_tasks(double rate) const {
     const double wanted = settings_.task_rates[i], steps = rate / wanted;
     if (steps > 1 - 1e-9 && std::abs(steps - std::nearbyint(steps)) < 1e-5 * steps)
       continue;  // as exact as the message
-    throw Error(about() + "runs at " + rounded(rate) + " Hz, and its task " + quote(task) + " is to run at " +
-                rounded(wanted) +
+    throw Error(about() + "runs at " + number_text(rate) + " Hz, and its task " + quote(task) + " is to run at " +
+                number_text(wanted) +
                 " Hz; the rate of a task is a whole fraction of the controller's, set `rate` or `rates: [\"" + task +
-                "=" + rounded(rate / std::max(1.0, std::ceil(steps))) + "\"]`");
+                "=" + number_text(rate / std::max(1.0, std::ceil(steps))) + "\"]`");
   }
 }
 
@@ -134,9 +135,9 @@ void ControlledRobot::doubt_if_too_slow(const Connector& c, const FoundProperty&
   const std::optional<double> keep = c.constant(found.object, radio::key_keep);
   const double period = 1 / c.rate();
   if (!keep || *keep >= period * (1 - 1e-9)) return;
-  doubts_.push_back(about(port, true) + " is read at " + rounded(c.rate()) + " Hz, but " +
-                    quote(c.object_name(found.object)) + " lists a message for " + rounded(*keep) +
-                    " s alone: those that come and go in between are missed; set `keep: " + rounded(period) +
+  doubts_.push_back(about(port, true) + " is read at " + number_text(c.rate()) + " Hz, but " +
+                    quote(c.object_name(found.object)) + " lists a message for " + number_text(*keep) +
+                    " s alone: those that come and go in between are missed; set `keep: " + number_text(period) +
                     "` at the radio");
 }
 

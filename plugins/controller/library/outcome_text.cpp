@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "outcome_text.hpp"
 
-#include <cstdio>
-
+#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/one_line.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::control {
-
-std::string rounded(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", number);
-  return text;
-}
 
 std::string text_of(const Outcome& outcome, bool is_isolated, const ProcessLimits& limits) {
   const std::string in = *outcome.function ? " in " + quote(outcome.function) : "";
@@ -34,7 +27,7 @@ std::string text_of(const Outcome& outcome, bool is_isolated, const ProcessLimit
     case Ending::exited:
       return "ended its process" + in + reason;
     case Ending::timed_out:
-      return "did not return from " + quote(outcome.function) + " within " + rounded(limits.timeout) +
+      return "did not return from " + quote(outcome.function) + " within " + number_text(limits.timeout) +
              " s of wall-clock time (`timeout`)";
     case Ending::no_process:
       return "cannot run" + reason;

@@ -8,9 +8,6 @@
 
 namespace muro::control {
 
-/// A number as a user reads it: with six digits.
-std::string rounded(double number);
-
 /// How a call has failed, behind the name of the library: "crashed in `step`: SIGSEGV". `is_isolated`: in a process of
 /// its own, which has these limits.
 std::string text_of(const Outcome& outcome, bool is_isolated, const ProcessLimits& limits);

@@ -142,8 +142,8 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
     const double stall = p.real("stall_torque"), no_load_speed = p.real("no_load_speed");
     const double max_torque = p.real("max_torque");
     if ((stall > 0) != (no_load_speed > 0))
-      throw Error("`stall_torque` is " + number_text(stall) + " N m and `no_load_speed` " +
-                  std::to_string(no_load_speed) + " rad/s; the torque-speed line needs both, or leave both out");
+      throw Error("`stall_torque` is " + number_text(stall) + " N m and `no_load_speed` " + number_text(no_load_speed) +
+                  " rad/s; the torque-speed line needs both, or leave both out");
     if (stall > 0) motor_.stall = stall * ratio, motor_.slope = stall / no_load_speed * ratio * ratio;
     if (max_torque > 0) motor_.max_effort = max_torque * ratio;
     gear_ = {.rotor_inertia = p.real("rotor_inertia") * ratio * ratio,

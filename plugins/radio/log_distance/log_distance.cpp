@@ -10,6 +10,7 @@
 #include "muro/toolkit/mounting.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "parameters.hpp"
+#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "reception.hpp"
 #include "send_queue.hpp"

@@ -2,10 +2,10 @@
 #include "parameters.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <initializer_list>
 #include <string>
 
+#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::log_distance {
@@ -30,12 +30,6 @@ double reference_loss(const Parameters& p) {
 }
 
 }  // namespace
-
-std::string number_text(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", number);
-  return text;
-}
 
 RadioParameters radio_parameters(const Parameters& p) {
   if (p.integer("min_exponent") > p.integer("max_exponent"))

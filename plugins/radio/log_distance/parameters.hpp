@@ -54,9 +54,6 @@ inline constexpr Parameter parameters[] = {
 RadioParameters radio_parameters(const Parameters& p);
 Channel channel_parameters(const Parameters& p);
 
-/// As it may stand in a message.
-std::string number_text(double number);
-
 /// Throws muro::Error where a parameter of the channel, which all robots of a world share, differs from that of robot
 /// `first`. [setup]
 void check_same_channel(const Parameters& p, const Parameters& of_the_first, std::string_view first);

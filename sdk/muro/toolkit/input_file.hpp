@@ -20,9 +20,9 @@ namespace muro {
 class InputFile {
  public:
   /// Opens it. Waits a minute for the first bytes of a pipe.
-  explicit InputFile(std::string path) : path_(std::move(path)) {
+  explicit InputFile(const std::string& path)
+      : InputFile(path, open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {
     constexpr int patience = 60'000;  // ms
-    descriptor_ = open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
     struct stat about {};
     if (descriptor_ < 0 || fstat(descriptor_, &about) != 0) fail(errno);
     if (S_ISDIR(about.st_mode)) fail(EISDIR);
@@ -66,6 +66,9 @@ class InputFile {
   bool is_cut() const { return is_cut_; }
 
  private:
+  /// Owns the descriptor from here on, whatever is thrown.
+  InputFile(const std::string& path, int descriptor) : path_(path), descriptor_(descriptor) {}
+
   /// False: at the end.
   bool fill() {
     constexpr std::size_t size = std::size_t(1) << 16;
