@@ -16,7 +16,7 @@ test::CommandResult run_as_shown(const std::string& language, const std::string&
   const std::string page = test::text_of(MURO_TEST_SOURCE_DIR "/docs/controllers.md");
   std::smatch code, command;
   if (!std::regex_search(page, code, std::regex("\n```" + language + "\n([^`]*)```")) ||
-      !std::regex_search(page, command, std::regex("\n    (" + compiler + " [^\n]*)")))
+      !std::regex_search(page, command, std::regex("\n    (" + compiler + R"( (?:[^\n]*\\\n)*[^\n]*))")))
     throw std::runtime_error("the page shows no library, or no command that builds it");
   const test::ScratchFolder scratch;
   std::string source = code[1];
