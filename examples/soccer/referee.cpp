@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "falls.hpp"
 #include "muro_controller.hpp"
 #include "pitch.hpp"
 
@@ -18,23 +19,21 @@ enum Output { place_pose, place_twist, place_count, match_state, match_score, ma
 enum Tunable { length, width, goal_width, half, pause, patience, kick_off };
 enum State { waits_for_ball, plays, is_over };  ///< `match.state`
 
-constexpr double reach = 0.3;        // m: who is nearest to the ball within this distance has touched it last
-constexpr double lies = 0.5;         // of the upward axis of a trunk: below, the player lies
-constexpr double time_to_lie = 0.5;  // s: so long, and it has fallen
-constexpr double stuck = 0.15;       // m: a ball that stays within this distance for `patience` is stuck
+constexpr double reach = 0.3;   // m: who is nearest to the ball within this distance has touched it last
+constexpr double stuck = 0.15;  // m: a ball that stays within this distance for `patience` is stuck
 constexpr int most_players = 32;
 
 /// Of the match, as it is saved.
 struct Match {
   std::array<std::int64_t, 2> score{}, falls{};
   std::int64_t outs = 0, state = plays, placements = 0, tries = 0, last_touch = no_team;
-  double restart_time = 0;                   // s: when the ball is put on its spot
-  Spot spot;                                 // where it is put
-  Spot rest;                                 // where the ball was when it began to rest
-  double rest_time = 0;                      // s: since when
-  std::int64_t kick_off = 0;                 // 1: the left team has it, -1: the right one, 0: the ball is in play
-  double kick_off_time = 0;                  // s: since when it lies on the centre mark for that
-  std::array<double, most_players> lying{};  // s: how long each player has lain; below 0: its fall has been counted
+  double restart_time = 0;    // s: when the ball is put on its spot
+  Spot spot;                  // where it is put
+  Spot rest;                  // where the ball was when it began to rest
+  double rest_time = 0;       // s: since when
+  std::int64_t kick_off = 0;  // 1: the left team has it, -1: the right one, 0: the ball is in play
+  double kick_off_time = 0;   // s: since when it lies on the centre mark for that
+  std::array<FallWatch, most_players> players{};
 };
 
 struct Player {
@@ -116,11 +115,7 @@ class Referee {
         const Player p = player_of(poses, i);
         const double dx = p.x - now.input(ball_pose)[0], dy = p.y - now.input(ball_pose)[1];
         if (dx * dx + dy * dy < nearest) nearest = dx * dx + dy * dy, match_.last_touch = team;
-        double& lying = match_.lying[number];
-        if (p.up > lies)
-          lying = 0;
-        else if (lying >= 0 && (lying += now.period()) > time_to_lie)
-          lying = -1, ++match_.falls[team];
+        if (match_.players[number].has_fallen(p.up, now.period())) ++match_.falls[team];
       }
     }
   }

@@ -2,8 +2,11 @@
 // The referee with a ball that rolls by itself, on the field of the match.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/instance.hpp"
 #include "host/scenario/builder.hpp"
+#include "muro/toolkit/rotations.hpp"
 #include "muro/vocabulary.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scene.hpp"
@@ -132,6 +135,31 @@ TEST(Referee, CountsAFallOnce) {
   EXPECT_EQ(m.told("match.falls"), (Numbers{0, 0})) << "not before it has lain for half a second";
   m.s.run_for(1.5);
   EXPECT_EQ(m.told("match.falls"), (Numbers{1, 0}));
+}
+
+/// Of a trunk's axis z along "up", each 0.2 s: a humanoid of examples/walk gets up from its back. It sits, bends
+/// forward over its feet, and rises.
+constexpr double from_the_back[] = {0.05, 0.05, 0.05, 0.05, 0.05, 0.07, 0.20, 0.40, 0.60, 0.77, 0.90, 0.98,
+                                    0.98, 0.96, 0.90, 0.86, 0.85, 0.81, 0.80, 0.77, 0.62, 0.57, 0.15, 0.19,
+                                    0.52, 0.74, 0.90, 0.90, 0.96, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00};
+
+/// Blue's trunk goes as recorded.
+void get_up(Match& m) {
+  const ObjectId trunk = m.s.world().object("blue/body");
+  for (std::size_t i = 1; i < std::size(from_the_back); ++i)
+    for (int k = 1; k <= 10; ++k) {
+      const double up = std::lerp(from_the_back[i - 1], from_the_back[i], 0.1 * k);
+      m.s.world().value(trunk, keys::pose) = {{-2, 0, 0.2}, from_rpy(0, std::acos(up), 0)};
+      m.s.run_for(0.02);
+    }
+}
+
+TEST(Referee, CountsGettingUpFromTheBackAsNoFurtherFall) {
+  Match m("at: {x: 0, y: 0}");
+  get_up(m);
+  EXPECT_EQ(m.told("match.falls"), (Numbers{1, 0}));
+  get_up(m);
+  EXPECT_EQ(m.told("match.falls"), (Numbers{2, 0})) << "it has stood before it fell again";
 }
 
 TEST(Referee, FreesABallThatIsStuckAndEndsTheHalf) {
