@@ -21,6 +21,7 @@
 #include "kick.hpp"
 #include "muro_controller.hpp"
 #include "settings.hpp"
+#include "springs.hpp"
 
 namespace {
 
@@ -68,7 +69,7 @@ class Walk {
     has_imu_ = now.input(angular_velocity).size() == 3 && now.input(linear_acceleration).size() == 3;
     if (has_joints_) {
       state_.measured = joints_.legs(now.input(positions));
-      if (is_at_rest()) feel_springs(now, h);
+      feel_springs(now, h);
     }
     if (has_imu_) feel(now, h);
     hear_kick(now);
@@ -102,7 +103,7 @@ class Walk {
     std::int64_t kick_foot = 0;  // as `walk.kick` has said last
     GetUp::Progress get_up;
     BothLegs measured{}, plan{}, sag{};
-    double springs = 1;                       // 0: joints meet their targets, whatever they carry
+    Springs springs;
     std::array<double, Joints::most> from{};  // targets when the mode began
   };
 
@@ -140,20 +141,14 @@ class Walk {
   /// It has come to its posture for the first time, and waits for what is measured there.
   bool is_at_rest() const { return state_.mode == preparing && !state_.calibrated && state_.time > s_.prepare; }
 
-  /// Joints that stay behind their targets as the weight and `stiffness` say have springs; those that meet them, as by
-  /// a motion that knows no forces, ask for no lead and no feedback. Dry friction takes its part: half counts as all.
   void feel_springs(const Step& now, double h) {
     const BothLegs target = joints_.legs(now.output(targets));
-    double along = 0, all = 0;
+    BothLegs behind;
     for (std::size_t side = 0; side < 2; ++side)
-      for (std::size_t j = 0; j < leg_joints; ++j) {
-        const double expected = state_.sag[side][j];
-        along += expected * (target[side][j] - state_.measured[side][j]);
-        all += expected * expected;
-      }
-    if (all == 0) return;
-    constexpr double smoothing = 0.1;  // s
-    state_.springs += h / smoothing * ((along > 0.5 * all ? 1 : 0) - state_.springs);
+      for (std::size_t j = 0; j < leg_joints; ++j) behind[side][j] = target[side][j] - state_.measured[side][j];
+    if (is_at_rest()) state_.springs.feel_at_rest(state_.sag, behind, h);
+    if (state_.mode == standing || state_.mode == walking_on || state_.mode == kicking)
+      state_.springs.feel(state_.sag, behind, reference(), h);
   }
 
   Posture walk(const Step& now, double h) {
@@ -238,7 +233,7 @@ class Walk {
     const std::array<Frame, 2> soles{body_.leg(left_side).sole_at(state_.measured[left_side]),
                                      body_.leg(right_side).sole_at(state_.measured[right_side])};
     const double ahead = state_.balance.astray(reference(), s_.gait.w(), body_, state_.attitude, soles, s_.balance, h);
-    state_.gait.find_astray(state_.springs * s_.balance.capture * ahead, s_.gait);
+    state_.gait.find_astray(state_.springs.share() * s_.balance.capture * ahead, s_.gait);
   }
 
   BothLegs legs(bool feels) {
@@ -248,9 +243,9 @@ class Walk {
     state_.sag = body_.sag(now, trunk, plan);
     BothLegs q = plan;
     for (std::size_t side = 0; side < 2; ++side)
-      for (std::size_t j = 0; j < leg_joints; ++j) q[side][j] += state_.springs * state_.sag[side][j];
+      for (std::size_t j = 0; j < leg_joints; ++j) q[side][j] += state_.springs.share() * state_.sag[side][j];
     state_.plan = plan;
-    if (feels) keep_balance(q, now, state_.attitude, s_.lean, s_.balance, state_.springs);
+    if (feels) keep_balance(q, now, state_.attitude, s_.lean, s_.balance, state_.springs.share());
     return q;
   }
 
