@@ -51,7 +51,7 @@ void Binder::bind(const Item& item, Exchange& inputs, Exchange& outputs) {
     const Variable& variable = description_.variables[v];
     if (const auto in = inputs_.find(v); in != inputs_.end()) {
       join(search, variable, places_of(search, in->second, true, variable.name), true, inputs);
-    } else if (variable.causality == Causality::input && !start_values_.contains(v)) {
+    } else if (variable.causality == Causality::input && variable.size > 0 && !has_value_(v)) {
       if (const auto place = place_of(search, variable.name, true))
         join(search, variable, std::span(&*place, 1), true, inputs);
       else
@@ -59,7 +59,7 @@ void Binder::bind(const Item& item, Exchange& inputs, Exchange& outputs) {
     }
     if (const auto out = outputs_.find(v); out != outputs_.end()) {
       join(search, variable, places_of(search, out->second, false, variable.name), false, outputs);
-    } else if (variable.causality == Causality::output) {
+    } else if (variable.causality == Causality::output && variable.size > 0) {
       // an output such as `twist` is no attempt to write the twist: commands only
       const auto place = place_of(search, variable.name, false);
       if (place && place->property.key->role == Role::command)
@@ -70,7 +70,7 @@ void Binder::bind(const Item& item, Exchange& inputs, Exchange& outputs) {
     throw Error("its inputs " + quoted_list(open) +
                 " are not connected: no property has that name. Connect them in `inputs`, as in [\"" +
                 std::string(open.front()) + "=object:property\"], or give them a value in `parameters`, as in [\"" +
-                std::string(open.front()) + "=0\"]");
+                std::string(open.front()) + "=0\"], or a column in `input_file`");
 }
 
 void Binder::join(const PropertySearch& search, const Variable& variable, std::span<const Place> places, bool is_input,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -12,13 +13,14 @@ namespace muro::fmu {
 /// Connects the variables of an FMU with the properties of one robot after the other. [setup]
 class Binder {
  public:
+  /// `has_value`: whether an input, by its place in the model description, needs no property.
   Binder(Connector& connector, const ModelDescription& description, const Mapping& inputs, const Mapping& outputs,
-         const StartValues& start_values)
+         std::function<bool(std::size_t)> has_value)
       : connector_(connector),
         description_(description),
         inputs_(inputs),
         outputs_(outputs),
-        start_values_(start_values) {}
+        has_value_(std::move(has_value)) {}
 
   /// Adds what there is to exchange for an item. Throws Error where an input is connected to nothing, and where sizes,
   /// units or types do not fit.
@@ -42,7 +44,7 @@ class Binder {
   const ModelDescription& description_;
   const Mapping& inputs_;
   const Mapping& outputs_;
-  const StartValues& start_values_;
+  std::function<bool(std::size_t)> has_value_;
   std::map<Binding, void*> handles_;  ///< of properties that are connected: each is asked for once
 };
 

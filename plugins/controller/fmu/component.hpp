@@ -56,6 +56,9 @@ class Component {
   virtual void instantiate() = 0;
   /// As after instantiate(): frees it and makes it anew where the FMU cannot be reset.
   virtual void reset() = 0;
+  /// Structural parameters, which FMI 3 alone has, are set between these two, before the initialization.
+  virtual void enter_configuration() {}
+  virtual void exit_configuration() {}
   virtual void enter_initialization(double start) = 0;
   virtual void exit_initialization() = 0;
 

@@ -104,6 +104,13 @@ class Component3 final : public Component {
     instantiate();
   }
 
+  /// Only FMUs whose structural parameters are set need the functions.
+  void enter_configuration() override {
+    setup_.binary->get(enter_configuration_, "fmi3EnterConfigurationMode");
+    setup_.binary->get(exit_configuration_, "fmi3ExitConfigurationMode");
+    call("fmi3EnterConfigurationMode", enter_configuration_, instance_);
+  }
+  void exit_configuration() override { call("fmi3ExitConfigurationMode", exit_configuration_, instance_); }
   void enter_initialization(double start) override {
     const double tolerance = setup_.description->tolerance;
     call("fmi3EnterInitializationMode", enter_, instance_, tolerance > 0, tolerance, start, false, 0.0);
@@ -198,6 +205,8 @@ class Component3 final : public Component {
 
   fmi3InstantiateCoSimulationTYPE* instantiate_ = nullptr;
   fmi3FreeInstanceTYPE* free_ = nullptr;
+  fmi3EnterConfigurationModeTYPE* enter_configuration_ = nullptr;
+  fmi3ExitConfigurationModeTYPE* exit_configuration_ = nullptr;
   fmi3EnterInitializationModeTYPE* enter_ = nullptr;
   fmi3ExitInitializationModeTYPE* exit_ = nullptr;
   fmi3TerminateTYPE* terminate_ = nullptr;

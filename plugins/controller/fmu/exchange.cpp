@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "exchange.hpp"
 
-#include <charconv>
 #include <cmath>
 
 #include "muro/algorithm.hpp"
 #include "number.hpp"
-#include "plugins/common/model_file/numbers.hpp"
 #include "plugins/common/scalar/with_scalar.hpp"
 #include "plugins/common/text/quote.hpp"
 
@@ -58,64 +56,6 @@ void write_run(const Variable& variable, const Run& run, const T* from, std::uin
         fail(variable, begin + i, "is " + text_of_number(from[i]) + ", which does not fit into " + run.name);
     }
   });
-}
-
-std::optional<std::vector<std::uint8_t>> bytes_of_hexadecimal(std::string_view text) {
-  std::vector<std::uint8_t> bytes(text.size() / 2);
-  if (text.size() % 2 != 0) return std::nullopt;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    const char* const begin = text.data() + 2 * i;
-    const auto [end, code] = std::from_chars(begin, begin + 2, bytes[i], 16);
-    if (code != std::errc() || end != begin + 2) return std::nullopt;
-  }
-  return bytes;
-}
-
-std::vector<std::string_view> split_words(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  std::vector<std::string_view> words;
-  for (std::size_t begin = 0; (begin = text.find_first_not_of(blanks, begin)) != text.npos;) {
-    const std::size_t end = std::min(text.find_first_of(blanks, begin), text.size());
-    words.push_back(text.substr(begin, end - begin));
-    begin = end;
-  }
-  return words;
-}
-
-/// The number of a word that a Boolean or an item of an enumeration is called by; nothing where it is no such word.
-std::optional<std::int64_t> number_of_name(const Variable& v, std::string_view word) {
-  if (v.type == Type::boolean && (word == "true" || word == "false")) return word == "true" ? 1 : 0;
-  if (!v.items) return std::nullopt;
-  for (const auto& [name, value] : *v.items)
-    if (name == word) return value;
-  return std::nullopt;
-}
-
-/// What a variable takes that is no plain number, as the end of a sentence.
-std::string names_for(const Variable& v) {
-  if (v.type == Type::boolean) return ", or true or false";
-  if (!v.items) return "";
-  std::vector<std::string_view> names;
-  for (const auto& [name, value] : *v.items) names.push_back(name);
-  return "; items of its type are " + quoted_list(names);
-}
-
-/// The number that a word says; integers of 64 bits are exact. Returns what is wrong with it, "" where nothing is.
-template <class T>
-std::string parse(const Variable& v, std::string_view word, int version, T& result) {
-  if constexpr (std::is_integral_v<T>) {
-    const char* const end = word.data() + word.size();
-    if (const auto read = std::from_chars(word.data(), end, result); read.ec == std::errc() && read.ptr == end)
-      return "";
-  }
-  std::string problem;
-  const auto number = model_file::parse_numbers(word, 1, problem);
-  const bool is_legal = number && (!std::is_integral_v<T> || number->front() == std::nearbyint(number->front()));
-  if (is_legal && convert(number->front(), result)) return "";
-  const auto named = number_of_name(v, word);  // items may be called by digits: what is a number stays one
-  if (named && convert(*named, result)) return "";
-  if (!number && !named) return problem + names_for(v);
-  return "does not fit into its type, " + std::string(name_of(v.type, version));
 }
 
 std::uint64_t count_of(const std::vector<Run>& runs) {
@@ -220,29 +160,6 @@ void Exchange::get(Component& component) {
       bytes = bytes.subspan(r.count);
     }
   }
-}
-
-void set_start_value(Component& component, const Variable& v, const std::string& text, int version) {
-  const std::string about = "`parameters`: value " + quote(text) + " of " + quote(v.name) + " ";
-  if (v.type == Type::binary) {
-    const auto bytes = bytes_of_hexadecimal(text);
-    if (!bytes) throw Error(about + "is not made of two hexadecimal digits a byte, such as 00ff");
-    return component.set_bytes(v.reference, *bytes);
-  }
-  if (v.type == Type::string && v.size == 1) return component.set_text(v.reference, text);
-  if (v.type == Type::string) throw Error(about + "cannot be given: it is an array of texts");
-  const bool is_name = v.size == 1 && number_of_name(v, text);  // which may hold blanks
-  const std::vector<std::string_view> words = is_name ? std::vector<std::string_view>{text} : split_words(text);
-  with_fmi_type(v.type, version, [&](auto zero) {
-    std::vector<decltype(zero)> values(words.size());
-    for (std::size_t i = 0; i < words.size(); ++i)
-      if (const std::string problem = parse(v, words[i], version, values[i]); !problem.empty())
-        throw Error(about + problem);
-    if (words.size() != v.size)
-      throw Error(about + "has " + std::to_string(words.size()) + (words.size() == 1 ? " number" : " numbers") +
-                  ", and needs " + std::to_string(v.size) + (v.size > 1 ? " separated by blanks" : ""));
-    component.set(v.type, std::span(&v.reference, 1), values.data(), values.size());
-  });
 }
 
 }  // namespace muro::fmu

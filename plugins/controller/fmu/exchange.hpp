@@ -62,9 +62,4 @@ class Exchange {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Gives a variable the value that a scenario says: a number, several separated by blanks for an array, true or false,
-/// the name of an item of an enumeration where that is no number of its type, a text, or the bytes of binary data as
-/// hexadecimal digits. Throws Error.
-void set_start_value(Component& component, const Variable& variable, const std::string& text, int version);
-
 }  // namespace muro::fmu

@@ -30,6 +30,8 @@ typedef fmi3Instance fmi3InstantiateCoSimulationTYPE(fmi3String name, fmi3String
                                                      size_t intermediate_count, fmi3InstanceEnvironment,
                                                      fmi3LogMessageCallback, fmi3IntermediateUpdateCallback);
 typedef void fmi3FreeInstanceTYPE(fmi3Instance);
+typedef fmi3Status fmi3EnterConfigurationModeTYPE(fmi3Instance);
+typedef fmi3Status fmi3ExitConfigurationModeTYPE(fmi3Instance);
 typedef fmi3Status fmi3EnterInitializationModeTYPE(fmi3Instance, fmi3Boolean has_tolerance, double tolerance,
                                                    double start, fmi3Boolean has_stop, double stop);
 typedef fmi3Status fmi3ExitInitializationModeTYPE(fmi3Instance);

@@ -8,11 +8,13 @@
 
 #include "archive.hpp"
 #include "binding.hpp"
+#include "input_table.hpp"
 #include "muro/ext/external_inputs.hpp"
 #include "muro/ext/loaded_libraries.hpp"
 #include "muro/plugin.hpp"
 #include "once_per_process.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "start_values.hpp"
 #include "stepper.hpp"
 
 namespace {
@@ -24,6 +26,7 @@ constexpr std::string_view isolations[] = {"none", "process"};
 constexpr Parameter parameters[] = {
     text("fmu", "", "path of the FMU; relative ones start at the scenario's folder").required(),
     texts("inputs", "what inputs read: \"variable=property\", \"variable=object:property[vx]\"; several by commas"),
+    text("input_file", "", "CSV file: a column `time` in s and one for each input that it gives values over time"),
     texts("outputs", "what outputs write, in the same form"),
     texts("parameters", "\"variable=value\": values before the initialization, in the units of the FMU"),
     text("isolate", "none", "process: the instance of each robot runs in a process of its own").one_of(isolations),
@@ -68,6 +71,8 @@ class FmuController final : public Algorithm {
     path_ = c.resolve_path(p.text("fmu"));
     notes_ = CallNotes::of(c.host());
     unpack_and_read(p);
+    if (const std::string_view file = p.text("input_file"); !file.empty())
+      table_ = std::make_unique<InputTable>(std::string(c.resolve_path(file)), description_);
     is_isolated_ = p.text("isolate") == "process" || (description_.once_per_process && !may_run_here(c));
     if (!is_isolated_) load();
     if (LoadedLibraries* told = LoadedLibraries::of(c.host()))
@@ -89,7 +94,8 @@ class FmuController final : public Algorithm {
     const Parameters& p = c.parameters();
     const Mapping inputs = read_mapping("inputs", p.texts("inputs"), description_);
     const Mapping outputs = read_mapping("outputs", p.texts("outputs"), description_);
-    Binder binder(c, description_, inputs, outputs, start_values_);
+    check_given_once(inputs);
+    Binder binder(c, description_, inputs, outputs, [&](std::size_t variable) { return has_value(variable); });
     for (std::uint32_t i = 0; i < robots_.size(); ++i)
       named(i, [&] { binder.bind(c.items()[i], robots_[i].inputs, robots_[i].outputs); });
     if (!robots_.empty() && robots_.front().outputs.is_empty())
@@ -131,8 +137,9 @@ class FmuController final : public Algorithm {
     std::unique_ptr<Component> component;
     Exchange inputs, outputs;
     StateBlock* block = nullptr;
-    bool is_new = true;     ///< the instance has been instantiated or reset, and no more
-    bool is_stale = false;  ///< the block says something else than the instance
+    std::vector<std::uint64_t> room;  ///< for values of the input file
+    bool is_new = true;               ///< the instance has been instantiated or reset, and no more
+    bool is_stale = false;            ///< the block says something else than the instance
   };
 
   std::string file_name() const { return std::filesystem::path(path_).filename().string(); }
@@ -161,6 +168,7 @@ class FmuController final : public Algorithm {
     description_ = read_model_description(archive.description, path_);
     saves_state_ = description_.can_serialize_state && p.boolean("snapshots");
     start_values_ = read_start_values(p.texts("parameters"), description_);
+    set_sizes(description_, start_values_);
     if (archive.has_resources) resources_ = folder_.path() / "resources";
     for (const std::string& platform : own_platforms(description_.version)) {
       library_ = folder_.path() / "binaries" / platform / (description_.identifier + ".so");
@@ -215,6 +223,7 @@ class FmuController final : public Algorithm {
       setup.name = r.name;
       setup.notes = notes_;
       setup.log = r.log.get();
+      if (table_) r.room.resize(table_->room());
       r.component = is_isolated_ ? make_remote_component(setup) : make_component(setup);
       r.component->instantiate();
     });
@@ -226,7 +235,7 @@ class FmuController final : public Algorithm {
     if (saves_state_)
       named(0, [&] {
         r.is_new = false;
-        set_start_values(r);
+        set_start_values(*r.component, description_, start_values_);
         r.component->enter_initialization(0);
         r.component->exit_initialization();
         r.component->keep_state();
@@ -239,9 +248,22 @@ class FmuController final : public Algorithm {
     return size == 0 ? 0 : (size + size / 2 + 1024) / 8 * 8;
   }
 
-  void set_start_values(Robot& r) {
-    for (const auto& [variable, text] : start_values_)
-      set_start_value(*r.component, description_.variables[variable], text, description_.version);
+  /// Whether an input needs no property, since something else gives it a value.
+  bool has_value(std::size_t variable) const {
+    return start_values_.contains(variable) || (table_ && table_->has(variable));
+  }
+
+  void check_given_once(const Mapping& inputs) const {
+    for (const auto& [variable, references] : inputs)
+      if (table_ && table_->has(variable))
+        throw Error(table_->path() + " has a column " + quote(description_.variables[variable].name) +
+                    ", and `inputs` connects it, too; leave out one of them");
+  }
+
+  /// `time` (s): whose values of the input file the FMU gets.
+  void set_inputs(Robot& r, double time) {
+    r.inputs.set(*r.component);
+    if (table_) table_->set(*r.component, time, r.room);
   }
 
   /// A name that no other controller on the same object has.
@@ -263,18 +285,18 @@ class FmuController final : public Algorithm {
     if (r.is_stale) synchronise(r);
     if (r.block->is_initialized == 0) {
       r.is_new = false;
-      set_start_values(r);
+      set_start_values(*r.component, description_, start_values_);
       r.component->enter_initialization(step.seconds());
-      r.inputs.set(*r.component);
+      set_inputs(r, step.seconds());
       r.component->exit_initialization();
       r.block->start = step.time;
       r.block->is_initialized = 1;
     } else {
       const double start = 1e-9 * double(r.block->start);
       const double periods = std::round(1e-9 * double(step.time - r.block->start) / step.dt);
-      r.inputs.set(*r.component);
-      advance(*r.component, description_, start + (periods - 1) * step.dt, start + periods * step.dt, step.dt,
-              [&] { r.inputs.set(*r.component); });
+      const double before = start + (periods - 1) * step.dt;
+      set_inputs(r, before);
+      advance(*r.component, description_, before, start + periods * step.dt, step.dt, [&] { set_inputs(r, before); });
     }
     r.outputs.get(*r.component);
     if (saves_state_) save(r);
@@ -331,6 +353,7 @@ class FmuController final : public Algorithm {
   std::unique_ptr<Binary> binary_;
   ProcessClaim claim_;
   StartValues start_values_;
+  std::unique_ptr<InputTable> table_;  ///< null: there is no input file
   std::size_t state_capacity_ = 0;
   std::vector<Robot> robots_;
 };

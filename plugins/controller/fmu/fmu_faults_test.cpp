@@ -347,9 +347,6 @@ TEST_P(FmuFault, OfAScenarioIsNamed) {
   EXPECT_SAYS(refusal_with(outputs("speed=command.twist[wz]")), "its unit is `m/s`, and that is in `rad/s`");
   EXPECT_SAYS(refusal_with({}, {"kk=1"}), "the FMU has no variable `kk`");
   EXPECT_SAYS(refusal_with({}, {"speed=1"}), "`speed` is not a parameter, an input, or a variable with `initial`");
-  if (version() == 3) {
-    EXPECT_SAYS(refusal_with({}, {"length=2"}), "`length` is a structural parameter, which keeps its start value");
-  }
   EXPECT_SAYS(refusal_with({}, {"k=1,5"}), "value `1,5` of `k` is no number; the decimal sign is a point");
   EXPECT_SAYS(refusal_with({}, {"k=1 2"}), "value `1 2` of `k` has 2 numbers, and needs 1");
   EXPECT_SAYS(refusal_with({}, {"fault=0.5"}), "value `0.5` of `fault` does not fit into its type, ");

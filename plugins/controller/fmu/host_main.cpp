@@ -114,6 +114,10 @@ class Server {
         return c.instantiate();
       case Call::reset:
         return c.reset();
+      case Call::enter_configuration:
+        return c.enter_configuration();
+      case Call::exit_configuration:
+        return c.exit_configuration();
       case Call::enter_initialization:
         return c.enter_initialization(in.value<double>());
       case Call::exit_initialization:

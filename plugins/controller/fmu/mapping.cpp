@@ -45,9 +45,9 @@ std::size_t variable_of(std::string_view parameter, std::string_view text, const
   if (!found)
     throw Error(words_of(parameter) + quote(text) + ": the FMU has no variable " + quote(name) +
                 did_you_mean(name, candidates) + "; what may stand here: " + quoted_list(candidates));
-  if (found->causality == Causality::structural_parameter)
+  if (found->causality == Causality::structural_parameter && parameter != "parameters")
     throw Error(words_of(parameter) + quote(text) + ": " + quote(found->name) +
-                " is a structural parameter, which keeps its start value");
+                " is a structural parameter, which keeps its value during the run; give that in `parameters`");
   if (!may_be_mapped(*found, parameter))
     throw Error(words_of(parameter) + quote(text) + ": " + quote(found->name) + " is not " +
                 std::string(what_may_be_mapped(parameter)) + "; what may stand here: " + quoted_list(candidates));

@@ -18,8 +18,6 @@ using model_file::Element;
 
 namespace {
 
-constexpr std::uint64_t largest_array = 1'000'000;
-
 struct TypeNames {
   Type type;
   std::string_view in_2, in_3;  ///< empty: there is none
@@ -48,6 +46,18 @@ constexpr std::pair<std::string_view, Causality> causality_names[] = {
     {"independent", Causality::independent},
     {"structuralParameter", Causality::structural_parameter}};
 
+/// The product of the lengths; nothing where it is above largest_array.
+std::optional<std::uint64_t> size_of_array(const std::vector<Dimension>& dimensions) {
+  std::uint64_t size = 1;
+  for (const Dimension& d : dimensions) {
+    if (d.length > largest_array || size * d.length > largest_array) return std::nullopt;
+    size *= d.length;
+  }
+  return size;
+}
+
+bool is_integer(Type type) { return type >= Type::int64 && type <= Type::uint8; }
+
 bool is_c_name(std::string_view text) {
   const auto is_word = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -69,6 +79,24 @@ const Variable* ModelDescription::find(std::string_view name) const {
 
 std::string ModelDescription::flag_of_state(std::string_view verb) const {
   return "can" + std::string(verb) + (version == 2 ? "FMUstate" : "FMUState");
+}
+
+bool ModelDescription::is_length(std::size_t variable) const {
+  const auto is_of_it = [&](const Dimension& d) { return d.parameter == variable; };
+  return std::any_of(variables.begin(), variables.end(), [&](const Variable& v) {
+    return std::any_of(v.dimensions.begin(), v.dimensions.end(), is_of_it);
+  });
+}
+
+bool ModelDescription::set_length(std::size_t variable, std::uint64_t length) {
+  for (Variable& v : variables) {
+    for (Dimension& d : v.dimensions)
+      if (d.parameter == variable) d.length = length;
+    const auto size = size_of_array(v.dimensions);
+    if (!size) return false;
+    v.size = *size;
+  }
+  return true;
 }
 
 class DescriptionReader {
@@ -262,15 +290,18 @@ class DescriptionReader {
     if (const char* word = e.Attribute("causality")) {
       const auto* const found = std::find_if(std::begin(causality_names), std::end(causality_names),
                                              [&](const auto& c) { return c.first == word; });
-      if (found == std::end(causality_names))
+      if (found == std::end(causality_names) || (found->second == Causality::structural_parameter && out_.version == 2))
         fail(e, "causality of variable " + quote(v.name) + " is " + quote(word) + ", which the standard does not know");
       v.causality = found->second;
     }
     const auto word = [&](const char* name) -> std::string_view { return e.Attribute(name) ? e.Attribute(name) : ""; };
     v.is_tunable = v.causality == Causality::parameter && word("variability") == "tunable";
-    v.may_be_set =
-        word("variability") != "constant" && (v.causality == Causality::parameter || v.causality == Causality::input ||
-                                              word("initial") == "exact" || word("initial") == "approx");
+    const bool is_parameter = v.causality == Causality::parameter || v.causality == Causality::structural_parameter;
+    v.is_continuous = (v.type == Type::float64 || v.type == Type::float32) && !is_parameter &&
+                      v.causality != Causality::calculated_parameter &&
+                      (word("variability").empty() || word("variability") == "continuous");
+    v.may_be_set = word("variability") != "constant" && (is_parameter || v.causality == Causality::input ||
+                                                         word("initial") == "exact" || word("initial") == "approx");
     if (const char* declared = typed.Attribute("declaredType"))
       if (const auto type = types_.find(declared); type != types_.end()) {
         v.unit = type->second.unit;
@@ -279,8 +310,9 @@ class DescriptionReader {
       }
     if (const char* unit = typed.Attribute("unit")) v.unit = unit;
     if (typed.Attribute("relativeQuantity")) v.is_relative = flag(typed, "relativeQuantity");
-    if (v.causality == Causality::structural_parameter && e.Attribute("start") && !e.FirstChildElement("Dimension"))
-      structural_sizes_[v.reference] = whole_number<std::uint64_t>(e, "start");
+    if ((v.causality == Causality::structural_parameter || word("variability") == "constant") && e.Attribute("start") &&
+        !e.FirstChildElement("Dimension"))
+      lengths_[v.reference] = out_.variables.size();
     const std::string name = v.name;
     if (!out_.by_name_.emplace(name, out_.variables.size()).second)
       fail(e, "variable " + quote(name) + " is there twice; names are unique");
@@ -292,30 +324,34 @@ class DescriptionReader {
     for (std::size_t i = 0; i < out_.variables.size() && out_.version == 3; ++i) {
       Variable& v = out_.variables[i];
       for (const Element* d = elements_[i]->FirstChildElement("Dimension"); d; d = d->NextSiblingElement("Dimension")) {
-        std::uint64_t length = 0;
-        if (d->Attribute("start")) {
-          length = whole_number<std::uint64_t>(*d, "start");
-        } else {
-          const auto found = structural_sizes_.find(whole_number<std::uint32_t>(*d, "valueReference"));
-          if (found == structural_sizes_.end())
-            fail(*d,
-                 "a dimension of variable " + quote(v.name) + " refers to no structuralParameter with a start value");
-          length = found->second;
-        }
-        if (length > largest_array || v.size * length > largest_array)
+        v.dimensions.push_back(dimension_of(*d, v));
+        const auto size = size_of_array(v.dimensions);
+        if (!size)
           fail(*d, "variable " + quote(v.name) + " has more than " + std::to_string(largest_array) +
                        " elements, which is the most that is read");
-        v.size *= length;
+        v.size = *size;
       }
     }
+  }
+
+  Dimension dimension_of(const Element& d, const Variable& of) const {
+    if (d.Attribute("start")) return {whole_number<std::uint64_t>(d, "start"), std::nullopt};
+    const auto found = lengths_.find(whole_number<std::uint32_t>(d, "valueReference"));
+    if (found == lengths_.end())
+      fail(d, "a dimension of variable " + quote(of.name) + " refers to no structuralParameter with a start value");
+    const Variable& by = out_.variables[found->second];
+    if (!is_integer(by.type))
+      fail(d, "a dimension of variable " + quote(of.name) + " refers to " + quote(by.name) + ", which is of type " +
+                  std::string(name_of(by.type, out_.version)) + "; lengths are of type UInt64");
+    return {whole_number<std::uint64_t>(*elements_[found->second], "start"), found->second};
   }
 
   const std::string& path_;
   model_file::Document document_;
   ModelDescription out_;
   std::map<std::string, DeclaredType, std::less<>> types_;
-  std::map<std::uint32_t, std::uint64_t> structural_sizes_;  ///< start values by value reference
-  std::vector<const Element*> elements_;                     ///< of each variable
+  std::map<std::uint32_t, std::size_t> lengths_;  ///< variables that dimensions may refer to, by value reference
+  std::vector<const Element*> elements_;          ///< of each variable
 };
 
 ModelDescription read_model_description(std::string bytes, const std::string& path) {

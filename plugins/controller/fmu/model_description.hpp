@@ -32,6 +32,8 @@ enum class Type : std::uint8_t {
 };
 inline constexpr std::size_t type_count = 14;
 
+inline constexpr std::uint64_t largest_array = 1'000'000;  ///< elements
+
 /// As the standard calls it in this version: "Real", "Float64".
 std::string_view name_of(Type type, int version);
 
@@ -48,15 +50,23 @@ enum class Causality : std::uint8_t {
 /// The items of a type of enumerations: names and values.
 using EnumerationItems = std::vector<std::pair<std::string, std::int64_t>>;
 
+/// One dimension of an array.
+struct Dimension {
+  std::uint64_t length = 0;
+  std::optional<std::size_t> parameter;  ///< place of the variable whose value the length is; nothing: it is constant
+};
+
 struct Variable {
   std::string name;
   std::uint32_t reference = 0;
   Type type = Type::float64;
   Causality causality = Causality::local;
   bool is_tunable = false;                        ///< a parameter that may change during the run
+  bool is_continuous = false;                     ///< changes at any time, not at communication points alone
   bool may_be_set = false;                        ///< before the initialization
   std::string unit;                               ///< empty: none is given
   bool is_relative = false;                       ///< a difference: the offset of its unit does not count
+  std::vector<Dimension> dimensions;              ///< of an array
   std::uint64_t size = 1;                         ///< numbers in it: of arrays, all elements
   std::shared_ptr<const EnumerationItems> items;  ///< of its declared type; null: it has none
   int line = 0;
@@ -82,6 +92,10 @@ struct ModelDescription {
   const Variable* find(std::string_view name) const;
   /// The names of capability flags differ in a letter: "canGetAndSetFMUstate" in FMI 2, "...FMUState" in FMI 3.
   std::string flag_of_state(std::string_view verb) const;
+  /// Whether a dimension of an array is as long as this variable says, by its place.
+  bool is_length(std::size_t variable) const;
+  /// Another value of such a variable: arrays get their sizes. False where one has more than largest_array elements.
+  [[nodiscard]] bool set_length(std::size_t variable, std::uint64_t length);
 
  private:
   friend class DescriptionReader;

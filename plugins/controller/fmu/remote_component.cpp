@@ -38,6 +38,8 @@ class RemoteComponent final : public Component {
 
   void instantiate() override { run(Call::instantiate, "Instantiate"); }
   void reset() override { run(Call::reset, "Reset"); }
+  void enter_configuration() override { run(Call::enter_configuration, "EnterConfigurationMode"); }
+  void exit_configuration() override { run(Call::exit_configuration, "ExitConfigurationMode"); }
   void enter_initialization(double start) override {
     add(Call::enter_initialization);
     request_.value(start);

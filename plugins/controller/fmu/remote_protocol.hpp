@@ -20,13 +20,15 @@ inline constexpr std::uint64_t largest_message = std::uint64_t(1) << 30;
 
 /// Tells apart programs of different builds.
 struct Greeting {
-  char text[24] = "muro fmu host 1";
+  char text[24] = "muro fmu host 2";
 };
 
 enum class Call : std::uint8_t {
   load,  ///< the first one; the others are those of Component
   instantiate,
   reset,
+  enter_configuration,
+  exit_configuration,
   enter_initialization,
   exit_initialization,
   set,

@@ -8,6 +8,7 @@ typedef struct {
   fmi3LogMessageCallback log;
   fmi3InstanceEnvironment host;
   bool may_return_early;
+  bool is_configuring, is_configured; /* configuration mode, and what comes behind it */
 } instance;
 
 static void say(instance* c, fmi3Status status, const char* text) {
@@ -48,9 +49,46 @@ void fmi3FreeInstance(fmi3Instance c) {
   free(c);
 }
 
+/* Structural parameters are set in configuration mode alone. */
+fmi3Status fmi3EnterConfigurationMode(fmi3Instance c) {
+  instance* me = c;
+  if (me->is_configuring || me->is_configured) return fmi3Error;
+  me->is_configuring = true;
+  return fmi3OK;
+}
+fmi3Status fmi3ExitConfigurationMode(fmi3Instance c) {
+  instance* me = c;
+  if (!me->is_configuring) return fmi3Error;
+  me->is_configuring = false;
+  me->is_configured = true;
+  return fmi3OK;
+}
+static bool may_be_set(instance* c, bool is_structural) {
+  if (is_structural == c->is_configuring) return true;
+  say(c, fmi3Error, is_structural ? "not in configuration mode" : "in configuration mode");
+  return false;
+}
+static bool set_unsigned(instance* c, fmi3ValueReference reference, uint64_t value) {
+  if (!may_be_set(c, reference == LENGTH)) return false;
+  const size_t most = sizeof c->now.vector / sizeof c->now.vector[0];
+  if (reference == LENGTH && value > most) {
+    say(c, fmi3Error, "length is at most 8");
+    return false;
+  }
+  *(reference == LENGTH ? &c->now.length : &c->now.u64) = value;
+  return true;
+}
+static bool set_flag(instance* c, fmi3ValueReference reference, bool value) {
+  if (!may_be_set(c, reference == AS_IT_IS)) return false;
+  c->now.booleans[reference] = value;
+  return true;
+}
+
 fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean has_tolerance, double tolerance, double start,
                                        fmi3Boolean has_stop, double stop) {
   (void)has_tolerance, (void)tolerance, (void)has_stop, (void)stop;
+  if (!may_be_set(c, false)) return fmi3Error;
+  ((instance*)c)->is_configured = true;
   ((instance*)c)->now.time = start;
   return fmi3OK;
 }
@@ -76,13 +114,14 @@ fmi3Status fmi3Reset(fmi3Instance c) { return c ? fmi3Error : fmi3OK; /* so that
   fmi3Status fmi3Set##NAME(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const TYPE values[],           \
                            size_t count) {                                                                         \
     model* m = &((instance*)c)->now;                                                                               \
+    (void)m;                                                                                                       \
     for (size_t i = 0; i < n; ++i) WRITE;                                                                          \
     return vr && n == count ? fmi3OK : fmi3Error;                                                                  \
   }
 ACCESS(Float32, float, m->f32, m->f32 = values[i])
 ACCESS(Int64, int64_t, vr[i] < 100 ? m->integers[vr[i]] : m->i64,
        *(vr[i] < 100 ? &m->integers[vr[i]] : &m->i64) = values[i])
-ACCESS(UInt64, uint64_t, m->u64, m->u64 = values[i])
+ACCESS(UInt64, uint64_t, vr[i] == LENGTH ? m->length : m->u64, if (!set_unsigned(c, vr[i], values[i])) return fmi3Error)
 ACCESS(Int32, int32_t, vr[i] < 100 ? (int32_t)m->integers[vr[i]] : m->i32,
        if (vr[i] < 100) m->integers[vr[i]] = values[i];
        else m->i32 = values[i])
@@ -91,7 +130,7 @@ ACCESS(Int16, int16_t, m->i16, m->i16 = values[i])
 ACCESS(UInt16, uint16_t, m->u16, m->u16 = values[i])
 ACCESS(Int8, int8_t, m->i8, m->i8 = values[i])
 ACCESS(UInt8, uint8_t, m->u8, m->u8 = values[i])
-ACCESS(Boolean, bool, m->booleans[vr[i]], m->booleans[vr[i]] = values[i])
+ACCESS(Boolean, bool, m->booleans[vr[i]], if (!set_flag(c, vr[i], values[i])) return fmi3Error)
 
 fmi3Status fmi3GetFloat64(fmi3Instance c, const fmi3ValueReference vr[], size_t n, double values[], size_t count) {
   model* m = &((instance*)c)->now;
@@ -111,7 +150,7 @@ fmi3Status fmi3SetFloat64(fmi3Instance c, const fmi3ValueReference vr[], size_t 
     if (vr[i] < 100)
       m->reals[vr[i]] = values[k++];
     else
-      for (int j = 0; j < 3; ++j) m->vector[j] = values[k++];
+      for (size_t j = 0; j < m->length && k < count; ++j) m->vector[j] = values[k++];
   return k == count ? fmi3OK : fmi3Error;
 }
 fmi3Status fmi3SetString(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const fmi3String values[],

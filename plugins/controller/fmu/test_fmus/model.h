@@ -55,7 +55,8 @@ typedef struct {
   uint16_t u16;
   int8_t i8;
   uint8_t u8;
-  double vector[3];
+  double vector[8];
+  uint64_t length;
   uint8_t bytes[6];
 } model;
 
@@ -83,7 +84,9 @@ enum {
   BOOL_OUT,
   CHOICE_IN,
   CHOICE_OUT,
-  STEP_END, /* s: time + size as it was told */
+  STEP_END,    /* s: time + size as it was told */
+  AS_IT_IS,    /* structural: bool_out is bool_in, not its opposite */
+  LENGTH = 99, /* structural: of vector_in */
 };
 
 enum outcome { DONE, DISCARDED, FAILED, BROKEN, ENDED, EVENT, EARLY };
@@ -105,6 +108,7 @@ static inline void model_reset(model* m) {
   m->reals[FAULT_TIME] = 0.5;
   m->reals[LARGEST_STEP] = 1e9;
   m->reals[GOAL] = 1;
+  m->length = 3;
 }
 
 static inline void model_outputs(model* m) {
@@ -112,7 +116,7 @@ static inline void model_outputs(model* m) {
   if (m->integers[FAULT] == FAULT_NAN && m->time >= m->reals[FAULT_TIME]) m->reals[SPEED] = NAN;
   m->reals[TURN] = -m->reals[ANGLE];
   m->integers[INT_OUT] = m->integers[INT_IN];
-  m->booleans[BOOL_OUT] = !m->booleans[BOOL_IN];
+  m->booleans[BOOL_OUT] = m->booleans[BOOL_IN] == m->booleans[AS_IT_IS];
   m->integers[CHOICE_OUT] = m->integers[CHOICE_IN];
 }
 
