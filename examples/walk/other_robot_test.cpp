@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "generated_humanoid_testing.hpp"
+#include "tests/support/files.hpp"
 #include "walk_testing.hpp"
 
 namespace muro::walk_test {
@@ -70,6 +71,30 @@ robots:
   EXPECT_LT(std::abs(walker.pose().position.y()), 0.05);
   EXPECT_GT(walker.least_upright(), 0.998);
   EXPECT_EQ(walker.touched(), "");
+}
+
+/// The humanoid with one drive for both hip yaws, as NAO has it: the right one follows the left one.
+TEST(OtherRobots, OneWhoseHipYawsTurnTogetherWalks) {
+  const std::string models = MURO_TEST_SOURCE_DIR "/examples/models/";
+  std::string model = test::text_of(models + "humanoid.urdf");
+  model = std::regex_replace(model, std::regex("\"meshes/"), "\"" + models + "meshes/");
+  const std::string joint = "<joint name=\"r_hip_yaw\" type=\"revolute\">";
+  ASSERT_NE(model.find(joint), model.npos);
+  model.insert(model.find(joint) + joint.size(), "<mimic joint=\"l_hip_yaw\" multiplier=\"-1\"/>");
+  const test::ScratchFolder folder;
+  const std::string file = folder.file("coupled.urdf", model);
+  for (const char* motion : {"articulated", "mujoco", "biped"}) {
+    SCOPED_TRACE(motion);
+    Walker walker({"robots.walker.model=" + file, std::string("robots.walker.motion.use=motion.") + motion,
+                   tunables("forward=0.1, heading=0")});
+    walker.run(8);
+    EXPECT_NEAR(walker.pose().position.x(), 0.1 * 5.4, 0.15);
+    EXPECT_GT(walker.least_upright(), 0.99);
+    EXPECT_GT(walker.least_height(), 0.24);
+    EXPECT_EQ(walker.phase(), 2);
+    EXPECT_NEAR(walker.world().value("walker/r_hip_yaw", keys::joint_position),
+                -walker.world().value("walker/l_hip_yaw", keys::joint_position), 1e-4);
+  }
 }
 
 }  // namespace

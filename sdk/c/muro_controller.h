@@ -48,7 +48,8 @@ extern "C" {
 /* One input or output. */
 typedef struct muro_port {
   const char* name; /* a property, e.g. "ranges"; no two inputs, and no two outputs, have the same */
-  const char* unit; /* its SI unit letter by letter as muro writes it, e.g. "m"; NULL: not checked */
+  const char* unit; /* its SI unit letter by letter as muro writes it, e.g. "m"; NULL: not checked. Where the scenario
+                     * connects several properties: of all, or one for each in their order, as "rad, rad, m" */
   uint32_t size;    /* number of elements; 0: as many as the property has (outputs: see output_sizes) */
   uint32_t flags;   /* 0, or MURO_PORT_..., or-ed */
 } muro_port;

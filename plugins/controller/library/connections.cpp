@@ -7,12 +7,30 @@
 #include "control_table.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
+#include "muro/vocabulary.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "port.hpp"
 
 namespace muro::control {
 
 namespace {
+
+/// One for each property. A port has one unit for all of them, or, as "rad, rad, m", one for each.
+std::vector<std::string_view> units_of(const muro_port& port, const std::vector<PortProperty>& properties) {
+  const std::string_view unit = port.unit ? port.unit : "";
+  std::vector<std::string_view> each;
+  for (std::size_t from = 0; from <= unit.size();) {
+    const std::size_t end = std::min(unit.find(", ", from), unit.size());
+    each.push_back(unit.substr(from, end - from));
+    from = end + 2;
+  }
+  const auto has_it = [&](const PortProperty& p) { return p.found.key->unit == unit; };
+  if (each.size() == 1 || properties.size() == 1 || std::any_of(properties.begin(), properties.end(), has_it))
+    return std::vector(properties.size(), unit);
+  if (each.size() == properties.size()) return each;
+  throw Error("its unit in the library is \"" + std::string(unit) + "\", which is one for each of " +
+              std::to_string(each.size()) + " properties, but " + std::to_string(properties.size()) + " are connected");
+}
 
 std::string comma_separated(const std::vector<std::string>& names) {
   std::string all;
@@ -98,18 +116,66 @@ std::vector<FoundProperty> PropertyFinder::find_matching(const PropertyReference
               did_you_mean(reference.object, names) + "; there are: " + quoted_list(names));
 }
 
-/// Properties of joints are in "rad or m": the first where the joint turns, the second where it shifts.
-void PropertyFinder::check_unit(const FoundProperty& p, const muro_port& port) const {
-  if (!port.unit || p.key->unit == port.unit) return;
+std::optional<PropertyFinder::Following> PropertyFinder::following(ObjectId joint) const {
+  const std::int32_t number = joint == no_object ? -1 : connector_.robot_of(joint);
+  if (number < 0) return std::nullopt;
+  const RobotView& robot = *connector_.robots()[std::size_t(number)];
+  for (const Link& link : robot.links)
+    if (link.joint_object == joint && link.mimic >= 0)
+      return Following{&robot, &link, &robot.links[std::size_t(link.mimic)]};
+  return std::nullopt;
+}
+
+std::string PropertyFinder::leader_of(const PortProperty& follower) const {
+  return quote(search_.local_name(following(follower.found.object)->leader->joint_object));
+}
+
+/// The target of a joint that nobody commands, for it follows another one.
+std::optional<PortProperty> PropertyFinder::find_follower(const PropertyReference& reference) const {
+  if (!reference.property.ends_with(".target")) return std::nullopt;
+  ObjectId joint = no_object;
+  if (item_.robot) joint = connector_.find_object(std::string(item_.robot->name) + "/" + reference.object);
+  if (joint == no_object) joint = connector_.find_object(reference.object);
+  const auto mimic = following(joint);
+  if (!mimic || search_.property_of(joint, reference.property)) return std::nullopt;
+  auto of_leader = search_.property_of(mimic->leader->joint_object, reference.property);
+  if (!of_leader) of_leader = search_.target_velocity(mimic->leader->joint_object, reference.property);
+  if (!of_leader) return std::nullopt;
+  PortProperty follower{*of_leader, -1, mimic->link->mimic_multiplier, mimic->link->mimic_offset};
+  if (of_leader->key->name != keys::joint_position_target.name) follower.offset = 0;
+  follower.found.object = joint;
+  return follower;
+}
+
+/// Throws Error for a follower whose leader is none of these.
+void PropertyFinder::find_leaders(std::vector<PortProperty>& all) const {
+  for (PortProperty& p : all) {
+    const auto mimic = following(p.found.object);
+    if (!mimic || search_.property_of(p.found.object, p.found.key->name)) continue;
+    const ObjectId leader = mimic->leader->joint_object;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i].found.object == leader && all[i].found.key->name == p.found.key->name) p.leader = std::int32_t(i);
+    if (p.leader < 0)
+      throw Error(search_.name_of(p.found) + " cannot be written: the joint follows " + leader_of(p) +
+                  " (a mimic joint), which takes the target of both; write \"" + search_.local_name(leader) + ":" +
+                  std::string(p.found.key->name) + "\" in its place, or beside it in the same port");
+  }
+}
+
+/// Properties of joints are in "rad or m": the first where the joint turns, the second where it shifts. `wanted`: the
+/// unit of the port at this place.
+void PropertyFinder::check_unit(const FoundProperty& p, const muro_port& port, std::string_view wanted) const {
+  if (p.key->unit == wanted) return;
   std::string_view unit = p.key->unit;
   std::string why;
   const std::size_t alternative = unit.find(" or ");
   const JointKind joint = alternative == unit.npos ? JointKind::fixed : search_.joint_of(p.object);
   if (joint == JointKind::revolute) unit = unit.substr(0, alternative), why = ", for the joint turns,";
   if (joint == JointKind::prismatic) unit = unit.substr(alternative + 4), why = ", for the joint shifts,";
-  if (unit == port.unit) return;
+  if (unit == wanted) return;
   throw Error(search_.name_of(p) + " is in \"" + std::string(unit) + "\"" + (why.empty() ? "," : why) +
-              " but the library works in \"" + port.unit + "\"");
+              " but the library works in \"" + std::string(wanted) + "\"" +
+              (wanted == port.unit ? "" : " there (\"" + std::string(port.unit) + "\")"));
 }
 
 void PropertyFinder::check_type(const FoundProperty& p, const muro_port& port, bool input) const {
@@ -130,7 +196,7 @@ void PropertyFinder::check_type(const FoundProperty& p, const muro_port& port, b
     throw Error(is_of_type + ", but the port is of integers; a port of numbers takes it");
 }
 
-void PropertyFinder::check(const FoundProperty& p, const muro_port& port, bool input) const {
+void PropertyFinder::check(const FoundProperty& p, const muro_port& port, bool input, std::string_view unit) const {
   check_type(p, port, input);
   const bool is_list = p.multiplicity == Multiplicity::list;
   if (is_list && !has_flag(port, MURO_PORT_LIST))
@@ -138,27 +204,30 @@ void PropertyFinder::check(const FoundProperty& p, const muro_port& port, bool i
                 " is a list, whose length changes from step to step; a port without MURO_PORT_LIST has a fixed size");
   if (!is_list && has_flag(port, MURO_PORT_LIST))
     throw Error(search_.name_of(p) + " has a fixed length, but the port is a list (MURO_PORT_LIST)");
-  check_unit(p, port);
+  if (port.unit) check_unit(p, port, unit);
 }
 
-std::vector<FoundProperty> PropertyFinder::find(const muro_port& port, bool input,
-                                                const Connections& connections) const {
+std::vector<PortProperty> PropertyFinder::find(const muro_port& port, bool input,
+                                               const Connections& connections) const {
   const std::string_view parameter = input ? "inputs" : "outputs";
-  std::vector<FoundProperty> found;
+  std::vector<PortProperty> found;
   if (const auto connected = connections.find(port.name); connected != connections.end()) {
     for (const PropertyReference& r : connected->second) {
-      if (r.object.find('*') == std::string::npos) {
-        found.push_back(input ? search_.find(r, parameter, port.name) : search_.find_output(r, parameter, port.name));
+      if (r.object.find('*') != std::string::npos) {
+        for (const FoundProperty& p : find_matching(r, input)) found.push_back({p});
+      } else if (const auto follower = input ? std::nullopt : find_follower(r)) {
+        found.push_back(*follower);
       } else {
-        const std::vector<FoundProperty> all = find_matching(r, input);
-        found.insert(found.end(), all.begin(), all.end());
+        found.push_back({input ? search_.find(r, parameter, port.name) : search_.find_output(r, parameter, port.name)});
       }
     }
+    if (!input) find_leaders(found);
   } else {
     const FoundProperty p = search_.find({"", port.name}, parameter, port.name);
-    found.push_back(input ? search_.measured(p).value_or(p) : p);
+    found.push_back({input ? search_.measured(p).value_or(p) : p});
   }
-  for (const FoundProperty& p : found) check(p, port, input);
+  const std::vector<std::string_view> units = units_of(port, found);
+  for (std::size_t i = 0; i < found.size(); ++i) check(found[i].found, port, input, units[i]);
   const bool is_one = has_flag(port, MURO_PORT_LIST) || (!input && type_of(port) == PortType::text);
   if (is_one && found.size() > 1)
     throw Error("it is " + std::string(input ? "a list" : "a text") + ", which stands for one property, but " +

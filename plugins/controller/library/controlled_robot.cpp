@@ -111,7 +111,15 @@ Port ControlledRobot::connect_port(Connector& c, const PropertyFinder& finder, c
   const bool may_be_missing = input && has_flag(port, MURO_PORT_OPTIONAL) && !connections.contains(port.name);
   if (may_be_missing && !finder.has(port.name)) return bound;
   try {
-    for (const FoundProperty& found : finder.find(port, input, connections)) {
+    for (const PortProperty& p : finder.find(port, input, connections)) {
+      const FoundProperty& found = p.found;
+      if (p.leader >= 0) {
+        bound.add_follower(std::size_t(p.leader), p.multiplier, p.offset);
+        notes_.push_back(about(port, input) + ": what it writes to " +
+                         quote(std::string(c.object_name(found.object)) + ":" + std::string(found.key->name)) +
+                         " is left out, for the joint follows " + finder.leader_of(p) + " (a mimic joint)");
+        continue;
+      }
       if (input && bound.type() == PortType::text && *found.key->type == value_type<TextId>) {
         for (const TextId id : constant_texts(c, found)) bound.add_text(std::string(c.text(id)));
         continue;

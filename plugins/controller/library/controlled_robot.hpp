@@ -67,6 +67,8 @@ class ControlledRobot {
   std::vector<std::string> connect(Connector& connector, const Connections& inputs, const Connections& outputs);
   /// Inputs that work and hardly as meant, in words. [after connect]
   const std::vector<std::string>& doubts() const { return doubts_; }
+  /// Outputs that go nowhere, in words. [after connect]
+  const std::vector<std::string>& notes() const { return notes_; }
   /// Makes a property for each output that is the library's own. [setup]
   void create_own_properties(Connector& connector, ObjectId object);
 
@@ -105,7 +107,7 @@ class ControlledRobot {
   std::uint64_t random_key_;
   StateBlock* block_;
   Ports inputs_, outputs_;
-  std::vector<std::string> doubts_;
+  std::vector<std::string> doubts_, notes_;
   std::vector<std::uint64_t> copies_;  ///< of ports, of all that are not read directly; written anew in every step
   std::unique_ptr<ControlProcess> process_;
   std::unique_ptr<ControlInstance> instance_;

@@ -95,10 +95,8 @@ class LibraryController final : public Algorithm {
     for (const auto& [port, robot] : missing)
       c.host().log(LogLevel::warning, "robot `" + robot + "`: `" + table.name + "` runs without its input `" + port +
                                           "`, which nothing of the robot provides");
-    const auto doubtful =
-        std::find_if(robots_.begin(), robots_.end(), [](const auto& robot) { return !robot->doubts().empty(); });
-    if (doubtful == robots_.end()) return;  // what holds for one robot holds for others: the first is told
-    for (const std::string& doubt : (*doubtful)->doubts()) c.host().log(LogLevel::warning, doubt);
+    tell_first(c.host(), LogLevel::warning, &ControlledRobot::doubts);
+    tell_first(c.host(), LogLevel::info, &ControlledRobot::notes);
   }
 
   void start() override {
@@ -169,6 +167,15 @@ class LibraryController final : public Algorithm {
       host.log(LogLevel::warning,
                "there can be no snapshots of this run: the instances of " + quote(table.name) + " (" + settings_.path +
                    ") have memory of their own, and its table has no functions `save` and `load`; a reset is possible");
+  }
+
+  /// What holds for one robot holds for others: the first is told.
+  void tell_first(Host& host, LogLevel level, const std::vector<std::string>& (ControlledRobot::*texts)() const) const {
+    for (const auto& robot : robots_) {
+      const std::vector<std::string>& all = (*robot.*texts)();
+      for (const std::string& text : all) host.log(level, text);
+      if (!all.empty()) return;
+    }
   }
 
   /// A name that no other controller on the same object has, whatever library it runs.

@@ -63,6 +63,11 @@ void Port::add(const FoundProperty& property, void* handle) {
                        .rests_at_zero = rests_at_zero(property.key->unit)});
 }
 
+void Port::add_follower(std::size_t leader, double multiplier, double offset) {
+  Segment& s = segments_.emplace_back();
+  s.leader = std::int32_t(leader), s.multiplier = multiplier, s.offset = offset;
+}
+
 void Port::add_objects(const FoundProperty& property, void* handle, ObjectNames names) {
   add(property, handle);
   segments_.back().names = std::move(names);
@@ -72,7 +77,7 @@ void Port::add_text(std::string text) { segments_.emplace_back().text = std::mov
 
 void Port::resolve(Segment& s) const {
   s.data = s.handle;
-  s.count = s.handle ? s.per_element : 0;
+  s.count = s.handle || s.is_led() ? s.per_element : 0;
   if (s.multiplicity == Multiplicity::array) {
     const auto* array = static_cast<const ArrayHeader*>(s.handle);
     s.data = array->data;
@@ -147,17 +152,27 @@ std::uint32_t Port::read_list(const Segment& s, double* to) const {
   return std::uint32_t(most) * s.per_element;
 }
 
+double Port::of_leader(const Segment& follower) const {
+  const Segment& leader = segments_[std::size_t(follower.leader)];
+  return follower.offset + follower.multiplier * *static_cast<const double*>(leader.data);
+}
+
 std::uint32_t Port::read(void* to) const {
   if (segments_.empty()) return 0;
   if (type_ == PortType::text) return read_text(static_cast<char*>(to));
   if (segments_[0].multiplicity == Multiplicity::list) return read_list(segments_[0], static_cast<double*>(to));
   const auto copy = [&](auto* next) {
     using Number = std::remove_pointer_t<decltype(next)>;
-    for (const Segment& s : segments_)
+    for (const Segment& s : segments_) {
+      if (s.is_led()) {
+        *next++ = Number(of_leader(s));
+        continue;
+      }
       with_scalar(s.scalar, [&]<class T>(T) {
         const auto* from = static_cast<const T*>(s.data);
         for (std::uint32_t i = 0; i < s.count; ++i) *next++ = Number(from[i]);
       });
+    }
   };
   if (type_ == PortType::number)
     copy(static_cast<double*>(to));
@@ -171,6 +186,10 @@ template <class T, class Write>
 bool Port::each_of(const void* from, std::uint32_t& bad, Write write) const {
   const T* next = static_cast<const T*>(from);
   for (const Segment& s : segments_) {
+    if (s.is_led()) {
+      ++next;
+      continue;
+    }
     const bool fine = with_scalar(s.scalar, [&]<class Held>(Held) {
       auto* to = static_cast<Held*>(s.data);
       for (std::uint32_t i = 0; i < s.count; ++i, ++next)

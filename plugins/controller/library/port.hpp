@@ -22,6 +22,9 @@ class Port {
 
   /// `handle` is what Connector::read_any or write_any returned for `property`. [setup]
   void add(const FoundProperty& property, void* handle);
+  /// The target of a joint that follows another one, whose own is what was added at place `leader`: it reads
+  /// offset + multiplier * that, and what is written to it goes nowhere. [setup]
+  void add_follower(std::size_t leader, double multiplier, double offset);
   /// Objects, which a port of texts names. [setup]
   void add_objects(const FoundProperty& property, void* handle, ObjectNames names);
   /// A text that does not change. [setup]
@@ -60,9 +63,14 @@ class Port {
     std::uint32_t count = 0;
     ObjectNames names{};
     std::string text{};
+    std::int32_t leader = -1;  ///< of a joint that follows another one: the segment that moves it
+    double multiplier = 1, offset = 0;
+
+    bool is_led() const { return leader >= 0; }
   };
 
   void resolve(Segment& s) const;
+  double of_leader(const Segment& follower) const;
   std::uint32_t read_list(const Segment& s, double* to) const;
   std::uint32_t read_text(char* to) const;
   static std::size_t longest_text(const Segment& s);

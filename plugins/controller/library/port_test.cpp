@@ -149,5 +149,30 @@ TEST(Port, SetsPropertiesSideBySide) {
   EXPECT_EQ(bytes[1], 7);
 }
 
+TEST(Port, ReadsAFollowerAsItsLeaderSaysAndWritesNothingForIt) {
+  Place<double> leader{0.5}, last{7};
+  Port port;
+  port.add_follower(1, -2, 0.25);
+  port.add(leader.found, &leader.value);
+  port.add(last.found, &last.value);
+  port.resolve();
+  ASSERT_EQ(port.size(), 3u);
+  double numbers[3];
+  EXPECT_EQ(port.read(numbers), 3u);
+  EXPECT_EQ(numbers[0], 0.25 - 2 * 0.5);
+  EXPECT_EQ(numbers[1], 0.5);
+  EXPECT_EQ(numbers[2], 7);
+  const double written[] = {9, 0.125, 8};
+  std::uint32_t bad = 0;
+  EXPECT_TRUE(port.write(written, bad));
+  EXPECT_EQ(leader.value, 0.125);
+  EXPECT_EQ(last.value, 8);
+  const double wrong[] = {9, 0.125, std::nan("")};
+  EXPECT_FALSE(port.write(wrong, bad));
+  EXPECT_EQ(bad, 2u) << "places are counted with it";
+  port.rest();
+  EXPECT_EQ(leader.value, 0.125);
+}
+
 }  // namespace
 }  // namespace muro::control

@@ -198,5 +198,85 @@ TEST(ControllerLibrary, TakesTheUnitOfTheJointThatAnEncoderLooksAt) {
                    "\"rad/s\""));
 }
 
+/// The legs of a robot whose hips turn together: the right one as the left one, the other way around, and 0.1 rad
+/// ahead. Behind them a sled.
+struct CoupledHips : test::Scene {
+  explicit CoupledHips(Texts outputs, const std::string& library = "look.so", Texts inputs = {}) {
+    robot = &add("nao", test::tree_of([](RobotBuilder& b) {
+                   const auto part = [&](const char* name) {
+                     b.body(name);
+                     b.set(keys::inertial, {.mass = 1, .ixx = 1, .iyy = 1, .izz = 1});
+                   };
+                   b.base("body");
+                   b.set(keys::inertial, {.mass = 1, .ixx = 1, .iyy = 1, .izz = 1});
+                   b.fork();
+                   b.revolute("left_hip", Vec3::UnitZ(), {});
+                   part("left_leg");
+                   b.end();
+                   b.fork();
+                   b.revolute("right_hip", Vec3::UnitZ(), {});
+                   b.mimic("left_hip", -1, 0.1);
+                   part("right_leg");
+                   b.end();
+                   b.prismatic("rail", Vec3::UnitX(), {});
+                   part("sled");
+                   b.end();
+                   b.end();
+                 }));
+    use("motion.point", 100, all_robots(), {{"joints", "position"}});
+    Settings settings{{"library", folder + library}, {"outputs", std::move(outputs)}};
+    if (!inputs.empty()) settings["inputs"] = std::move(inputs);
+    use("controller.library", 10, {{robot, robot->base()}}, settings);
+    set_log([this](LogLevel, std::string_view line) { log += std::string(line) + "\n"; });
+  }
+  double joint(const std::string& name) { return world().value("nao/" + name, keys::joint_position); }
+  const RobotView* robot = nullptr;
+  std::string log;
+};
+
+TEST(Ports, LeaveAJointThatFollowsAnotherOneToItsLeader) {
+  CoupledHips s({"commands=left_hip:joint.position.target,right_hip:joint.position.target,rail:joint.position.target"});
+  s.build();
+  EXPECT_TRUE(says(s.log,
+                   "robot `nao`: output `commands` of `look`: what it writes to `nao/right_hip:joint.position.target` "
+                   "is left out, for the joint follows `left_hip` (a mimic joint)"));
+  s.run_for(0.5);
+  EXPECT_TRUE(says(s.log, "outputs 3")) << "the library has its place all the same";
+  EXPECT_NEAR(s.joint("left_hip"), 1, 1e-12) << "look writes 1, 2, 3";
+  EXPECT_NEAR(s.joint("right_hip"), -1 + 0.1, 1e-12);
+  EXPECT_NEAR(s.joint("rail"), 3, 1e-12);
+}
+
+TEST(Ports, RefuseAJointThatFollowsWithoutItsLeader) {
+  CoupledHips alone({"commands=right_hip:joint.position.target,rail:joint.position.target"});
+  EXPECT_TRUE(says(refusal(alone),
+                   "output `commands` of `look` cannot be connected: `nao/right_hip:joint.position.target` cannot be "
+                   "written: the joint follows `left_hip` (a mimic joint), which takes the target of both; write "
+                   "\"left_hip:joint.position.target\" in its place, or beside it in the same port"));
+  CoupledHips unknown({"commands=left_hip:joint.position.target,right_hip:joint.psition.target"});
+  EXPECT_TRUE(says(refusal(unknown), "object `nao/right_hip` has no property `joint.psition.target`"));
+}
+
+TEST(Ports, MayHaveAUnitForEachProperty) {
+  const Texts outputs{"commands=command.twist"};
+  const auto reading = [&](const std::string& input) {
+    CoupledHips s(outputs, "look.so", {"mixed=" + input});
+    return refusal(s);
+  };
+  EXPECT_EQ(reading("left_hip:joint.position,right_hip:joint.position,rail:joint.position"), "no complaint");
+  EXPECT_TRUE(says(reading("left_hip:joint.position,rail:joint.position,right_hip:joint.position"),
+                   "input `mixed` of `look` cannot be connected: `nao/rail:joint.position` is in \"m\", for the joint "
+                   "shifts, but the library works in \"rad\" there (\"rad, rad, m\")"));
+  EXPECT_TRUE(says(reading("left_hip:joint.position,rail:joint.position"),
+                   "its unit in the library is \"rad, rad, m\", which is one for each of 3 properties, but 2 are "
+                   "connected"));
+}
+
+TEST(Ports, InRadiansOrMetresAreForJointsOfBothKinds) {
+  CoupledHips s({"commands=command.twist"}, "look.so",
+                {"either=left_hip:joint.position,rail:joint.position,right_hip:joint.position"});
+  EXPECT_EQ(refusal(s), "no complaint");
+}
+
 }  // namespace
 }  // namespace muro::control

@@ -19,7 +19,9 @@ class Look {
                                          {"words", nullptr, 0, MURO_PORT_OPTIONAL | MURO_PORT_TEXT},
                                          {"short", nullptr, 6, MURO_PORT_OPTIONAL | MURO_PORT_TEXT},
                                          {"list", nullptr, 15, MURO_PORT_OPTIONAL | MURO_PORT_LIST},
-                                         {"velocity", "rad/s", 1, MURO_PORT_OPTIONAL}};
+                                         {"velocity", "rad/s", 1, MURO_PORT_OPTIONAL},
+                                         {"mixed", "rad, rad, m", 0, MURO_PORT_OPTIONAL},
+                                         {"either", "rad or m", 0, MURO_PORT_OPTIONAL}};
   static constexpr muro_port outputs[] = {{"commands", nullptr, 0, 0}};
 
   explicit Look(const Setup& setup) { setup.log().info("outputs " + std::to_string(setup.output_size(0))); }
