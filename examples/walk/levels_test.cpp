@@ -56,6 +56,23 @@ TEST(Levels, SlowTwentyPhasesOfAFasterStep) {
   for (int k = 0; k < 20; ++k) expect_to_walk_on("articulated", true, 0.05 * k, 0.2, 0.3);
 }
 
+/// Handed over while it lies and gets up, it is put on its feet, and walks when it has done what it does to get up.
+TEST(Levels, OneThatGetsUpWalksAfterIt) {
+  for (const double time : {0.5, 2.0, 5.0}) {
+    SCOPED_TRACE(time);
+    Walker walker({levels("articulated", "forces"), "robots.walker.at={pitch: -1.57}"});
+    walker.run(time);
+    EXPECT_GE(walker.phase(), 3) << "it falls or gets up";
+    walker.world().value("walker/base_link", keys::motion_level_target) = 1;
+    walker.run(14 - time);
+    EXPECT_EQ(walker.phase(), 2);
+    const Vec3 before = walker.pose().position;
+    walker.run(4);
+    EXPECT_NEAR((walker.pose().position - before).norm(), 0.4, 0.05);
+    EXPECT_NEAR(walker.pose().position.z(), 0.2555, 0.004);
+  }
+}
+
 /// There and back each second.
 TEST(Levels, HandedOverAgainAndAgainItWalksOn) {
   Walker walker({levels("articulated", "forces")});

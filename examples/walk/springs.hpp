@@ -21,6 +21,8 @@ class Springs {
   void feel_at_rest(const BothLegs& sag, const BothLegs& behind, double h);
   /// The robot stands, walks or kicks as `now` says; the legs that carry tell.
   void feel(const BothLegs& sag, const BothLegs& behind, const Reference& now, double h);
+  /// The robot has fallen, and legs that carry nothing meet their targets: taken to be on springs again.
+  void forget() { *this = {}; }
 
  private:
   double share_ = 1;

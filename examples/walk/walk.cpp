@@ -264,6 +264,7 @@ class Walk {
     state_.gait.stand({state_.gait.along_x().position, state_.gait.along_y().position, state_.gait.yaw()}, s_.gait);
     state_.balance.clear();
     state_.kick.clear();
+    state_.springs.forget();
     state_.heading = state_.attitude.yaw();
   }
 
