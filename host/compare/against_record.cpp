@@ -49,7 +49,8 @@ class RecordedCommands {
 
 std::int64_t whole_ns(double seconds) { return std::llround(seconds * 1e9); }
 
-/// The joint at any time of the simulation. Its motion knows it at instants; in between it is interpolated.
+/// The joint at any time of the simulation, as its servo measures it. Its motion knows it at instants; in between it is
+/// interpolated.
 class SimulatedJoint {
  public:
   SimulatedJoint(Simulation& simulation, const std::string& joint)
@@ -57,6 +58,8 @@ class SimulatedJoint {
     World& world = simulation.world();
     const ObjectId object = world.object(joint);
     if (world.store().find(object, keys::joint_velocity.name)) velocity_ = &world.value(object, keys::joint_velocity);
+    constexpr Key<double> offset{"servo.offset", "", ""};
+    if (world.store().find(object, offset.name)) offset_ = world.value(object, offset);
     const Slot* slot = world.store().find(object, keys::joint_position.name);
     const Slot::User* writer = slot ? slot->writer() : nullptr;
     for (const auto& instance : simulation.instances())
@@ -64,8 +67,9 @@ class SimulatedJoint {
         rate_ = instance->setup().rate, phase_ = instance->setup().phase;
   }
 
-  /// Now it is at `position` (rad) and moves with `velocity` (rad/s).
+  /// Now it is at the measured `position` (rad) and moves with `velocity` (rad/s).
   void put(double position, double velocity) {
+    position += offset_;
     from_ = simulation_.now(), from_position_ = position;
     to_ = instant_from(from_);
     position_ = position + 1e-9 * double(to_ - from_) * velocity;
@@ -73,7 +77,7 @@ class SimulatedJoint {
     simulation_.tell_of_change();
   }
 
-  /// Runs until `time` (ns); rad.
+  /// Runs until `time` (ns); the measured position, rad.
   double position_at(std::int64_t time) {
     const std::int64_t before = last_instant_before(time);
     if (before >= simulation_.now()) {
@@ -83,7 +87,7 @@ class SimulatedJoint {
     }
     simulation_.run_until(time);
     const double part = to_ > from_ ? double(time - from_) / double(to_ - from_) : 1;
-    return from_position_ + part * (position_ - from_position_);
+    return from_position_ + part * (position_ - from_position_) - offset_;
   }
 
  private:
@@ -101,7 +105,8 @@ class SimulatedJoint {
   Simulation& simulation_;
   double& position_;
   double* velocity_ = nullptr;
-  Rate rate_;  ///< of the motion
+  double offset_ = 0;  ///< rad: of the servo's encoder, the true position less the measured one
+  Rate rate_;          ///< of the motion
   std::int64_t phase_ = 0;
   std::int64_t from_ = 0, to_ = 0;  ///< instants around the present time; `position_` is that of the second
   double from_position_ = 0;

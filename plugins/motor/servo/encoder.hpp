@@ -9,9 +9,12 @@ namespace muro::servo {
 struct Encoder {
   double resolution = 0;  ///< rad or m a step; 0: exact
   double filter = 0;      ///< s, time constant of the speed; 0: none
+  double offset = 0;      ///< rad or m: the true position less the measured one
 
+  /// The measured position at the true one.
   double reading(double position) const {
-    return resolution > 0 ? std::round(position / resolution) * resolution : position;
+    const double measured = position - offset;
+    return resolution > 0 ? std::round(measured / resolution) * resolution : measured;
   }
   /// The measured speed. `now`, `last`: readings of this run and of the one before; `speed`: as measured then; `exact`:
   /// the true one.

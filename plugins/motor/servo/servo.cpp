@@ -25,6 +25,7 @@ using namespace muro::servo;
 constexpr Key<double> integral_effort{"servo.integral", "N m or N", "effort of the controller's integral"};
 constexpr Key<double> encoder_reading{"servo.position", "rad or m", "position as measured"};
 constexpr Key<double> measured_speed{"servo.velocity", "rad/s or m/s", "speed as measured"};
+constexpr Key<double> encoder_offset{"servo.offset", "rad or m", "true position less the measured one"};
 constexpr Key<double> delayed_commands{"servo.commands", "rad or m, rad/s or m/s", "list: on their way to the servo"};
 constexpr Key<double> rotor_position{"motor.position", "rad or m", "of the rotor, at the output"};
 constexpr Key<double> rotor_velocity{"motor.velocity", "rad/s or m/s", "of the rotor, at the output"};
@@ -43,6 +44,9 @@ constexpr Parameter parameters[] = {
     real("delay", "s", 0, "of commands; rounded to whole runs").between(0, 1),
     text("encoder", "output", "where the position is measured").one_of(encoder_places),
     real("encoder_resolution", "rad or m", 0, "step of the measured position, at the output; 0: exact").between(0, 1),
+    real("offset", "rad or m", 0,
+         "zero of the encoder: joint.position less the measured position; goals are measured positions")
+        .between(-10, 10),
     real("speed_filter", "s", 0, "time constant of the measured speed; 0: none").between(0, 10),
     real("gear_ratio", "1 or rad/m", 1, "turns of the motor by those of the output").between(1e-6, 1e9),
     real("stall_torque", "N m", 0, "of the motor at standstill; 0: no torque-speed line").between(0, 1e12),
@@ -86,6 +90,7 @@ constexpr PropertyUse writes[] = {{"joint.effort.target", "of every joint that i
                                   {"servo.integral", "effort of the controller's integral"},
                                   {"servo.position", "position as measured"},
                                   {"servo.velocity", "speed as measured"},
+                                  {"servo.offset", "constant: joint.position less the measured one, where it is not 0"},
                                   {"servo.commands", "commands on their way, where there is a delay"},
                                   {"motor.position", "of the rotor, at the output, where it has inertia"},
                                   {"motor.velocity", "of the rotor, at the output, where it has inertia"},
@@ -135,7 +140,7 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
   void read_parameters(const Parameters& p) override {
     const double ratio = p.real("gear_ratio");
     controller_ = {p.text("mode") == "velocity", p.real("stiffness"), p.real("damping"), p.real("integral")};
-    encoder_ = {p.real("encoder_resolution"), p.real("speed_filter")};
+    encoder_ = {p.real("encoder_resolution"), p.real("speed_filter"), p.real("offset")};
     encoder_on_motor_ = p.text("encoder") == "motor";
     delay_ = p.real("delay");
     has_voltage_ = has_voltage(p);
@@ -198,7 +203,8 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
       }
       if (!c.constant_array(robot.base(), keys::motion_level_names).empty())
         j.world = c.input(robot.base(), keys::contact_world, kinematic_world);
-      j.initial_command = controller_.follows_velocity ? 0 : start[i];
+      if (encoder_.offset != 0) c.set(joint, encoder_offset, encoder_.offset);
+      j.initial_command = controller_.follows_velocity ? 0 : start[i] - encoder_.offset;
       j.command =
           c.input(joint, controller_.follows_velocity ? keys::joint_velocity_target : keys::joint_position_target,
                   j.initial_command);

@@ -102,6 +102,21 @@ TEST(Servo, ACommandIsDelayedByWholeRuns) {
   }
 }
 
+TEST(Servo, TheOffsetIsTheTruePositionLessTheMeasuredOne) {
+  // m g l sin(q) = k (goal - (q - offset)) at rest, for the rod; nothing turns the wheel
+  const double k = 8, offset = 0.15, goal = 0.3;
+  Bench s({{"stiffness", k}, {"damping", 0.4}, {"offset", offset}}, {}, 1000, 0.2);
+  s.run_for(0.5);
+  EXPECT_NEAR(s.q(), 0.2, 1e-12) << "without a command it stays where it is";
+  s.goal() = s.of("arm", keys::joint_position_target) = goal;
+  s.run_for(5);
+  EXPECT_NEAR(s.q(), goal + offset, 1e-9);
+  EXPECT_NEAR(s.of("wheel", Key<double>{"servo.position", "rad or m", ""}), goal, 1e-9);
+  EXPECT_EQ(s.of("wheel", Key<double>{"servo.offset", "rad or m", ""}), offset);
+  const double q = s.of("arm", keys::joint_position);
+  EXPECT_NEAR(0.75 * 9.81 * 0.2 * std::sin(q), k * (goal + offset - q), 1e-3);
+}
+
 TEST(Servo, TheEncoderRoundsWhatTheControllerSees) {
   const double step = 2 * M_PI / 4096;
   Bench s({{"stiffness", 8.0}, {"damping", 0.2}, {"encoder_resolution", step}}, {.damping = 0.1});

@@ -154,6 +154,13 @@ TEST(VoltageDrive, ServosOfAScenarioOverrideThePart) {
   EXPECT_NEAR(s.of("motor.effort"), 1.663 * 7.5 / 3.156, 1e-12) << "the model that knows most is taken";
 }
 
+TEST(VoltageDrive, AnOffsetIsInTheErrorThatMakesTheDuty) {
+  VoltageBench s({{"part", "mx64"}, {"offset", -0.02}, {"p_gain", 1.0}}, "motion.simplified", 1000, 0.1, true);
+  s.goal() = 0.2;
+  s.run_for(0.0005);
+  EXPECT_NEAR(s.of("servo.duty"), 0.158 * (0.2 - (0.1 + 0.02)), 1e-12);
+}
+
 TEST(VoltageDrive, TheSupplyMayFallWhileItRuns) {
   VoltageBench s({{"part", "mx64"}, {"friction_model", "m1"}}, "motion.simplified", 1000, 0, true);
   s.goal() = 1e4;
