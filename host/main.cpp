@@ -192,8 +192,10 @@ struct Commands {
         ->capture_default_str();
     repeatable(
         command.add_option("--fit", o.fit, "Find this, too: gain (of the firmware), delay, temperature (repeatable)"));
-    command.add_option("--validate", o.validate,
-                       "Records that are left out of the fit, or a part of all such as 0.25, chosen by the seed");
+    command.add_option(
+        "--validate", o.validate,
+        "Records that are left out of the fit, or a part of all such as 0.25, chosen by the seed; default: "
+        "each record in turn, by more fits");
     command.add_flag("--cross-validate", o.cross_validate, "Fit again without the records of each P gain in turn");
     command
         .add_option("--duty-gain", o.duty_gain, "Of the firmware: duty by error, 1/rad, for each unit of the P gain")

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <set>
+#include <thread>
 
 #include "core/error.hpp"
 
@@ -63,6 +65,79 @@ std::vector<CrossValidation> leave_out_in_turn(const std::vector<MotorRecord>& r
   return all;
 }
 
+/// The fits of a validation, and the error on each record (rad).
+struct PartialFits {
+  Validation validation;
+  std::vector<double> errors;
+  std::uint64_t evaluations = 0;
+};
+
+/// Leaves out each record, or each group of records, in turn. Record i belongs to group i modulo their number.
+PartialFits leave_records_out(const std::vector<MotorRecord>& records, const FitSettings& settings,
+                              const FitResult& whole, const std::function<void(const std::string&, double)>& show) {
+  constexpr std::size_t most_fits = 6;
+  const std::size_t fits = std::min(records.size(), most_fits);
+  PartialFits result;
+  result.validation.data = fits == records.size() ? UnseenData::each_record : UnseenData::groups_of_records;
+  result.validation.fits = unsigned(fits);
+  result.errors.resize(records.size());
+  std::vector<std::uint64_t> evaluations(fits);
+  std::atomic<std::size_t> next{0}, done{0};
+  const auto work = [&] {
+    for (std::size_t k = next++; k < fits; k = next++) {
+      std::vector<MotorRecord> seen;
+      for (std::size_t i = 0; i < records.size(); ++i)
+        if (i % fits != k) seen.push_back(records[i]);
+      const FitResult fit = refit_motor(seen, settings, whole);
+      for (std::size_t i = k; i < records.size(); i += fits) result.errors[i] = error_on({records[i]}, fit.estimate);
+      evaluations[k] = fit.evaluations;
+      ++done;
+      if (show) show("records left out in turn", double(done) / double(fits));
+    }
+  };
+  std::vector<std::thread> threads;
+  for (std::size_t t = 1; t < std::min<std::size_t>(std::max(settings.threads, 1u), fits); ++t)
+    threads.emplace_back(work);
+  work();
+  for (std::thread& t : threads) t.join();
+  for (const std::uint64_t e : evaluations) result.evaluations += e;
+  for (const double e : result.errors) result.validation.unseen_error += e / double(records.size());
+  result.validation.fit_error = error_on(records, whole.estimate);
+  return result;
+}
+
+/// Mean |error| (rad) from the sample `first` on, of a simulation of the whole record.
+double error_from(std::size_t first, const MotorRecord& record, const MotorEstimate& estimate) {
+  const Residuals r = residuals_of(prepare(record, report_step, estimate.delay), record, estimate);
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < r.times.size(); ++i)
+    if (r.times[i] >= record.samples[first].time) sum += std::abs(r.errors[i]), count += 1;
+  return count > 0 ? sum / count : 0;
+}
+
+/// Fits to the first three quarters of the samples, and predicts the others.
+PartialFits leave_end_out(const MotorRecord& record, const FitSettings& settings, const FitResult& whole,
+                          const std::function<void(const std::string&, double)>& show) {
+  MotorRecord seen = record;
+  seen.samples.resize(seen.samples.size() * 3 / 4);
+  const std::size_t first = seen.samples.size();
+  const FitResult fit = fit_motor({seen}, settings, [&](double part) {
+    if (show) show("without the last quarter", part);
+  });
+  const double error = error_from(first, record, fit.estimate);
+  return {{UnseenData::last_quarter, 1, error, error_from(first, record, whole.estimate)}, {error}, fit.evaluations};
+}
+
+void warn_of_overfit(const Validation& v, FrictionKind friction, std::vector<std::string>& notes) {
+  constexpr double usual = 2;
+  if (v.data == UnseenData::named_records || !(v.unseen_error > usual * v.fit_error)) return;
+  notes.push_back(
+      fmt::format("on what a fit has not seen its error is {:.1f} times that of the fit of all; record more movements "
+                  "that differ{}",
+                  v.unseen_error / v.fit_error,
+                  friction == FrictionKind::m1 ? "" : ", or take a model with fewer parameters (--model m1)"));
+}
+
 }  // namespace
 
 double mean_error(const std::vector<PredictedRecord>& records, bool validation) {
@@ -109,6 +184,14 @@ Identification identify_motor(std::vector<MotorRecord> fit, std::vector<MotorRec
   result.fit = fit_motor(fit, settings, [&](double part) {
     if (show) show("all records", part);
   });
+  PartialFits partial;
+  if (validation.empty()) {
+    partial = fit.size() > 1 ? leave_records_out(fit, settings, result.fit, show)
+                             : leave_end_out(fit.front(), settings, result.fit, show);
+    result.validation = partial.validation;
+    result.fit.evaluations += partial.evaluations;
+    warn_of_overfit(result.validation, settings.friction, result.notes);
+  }
   if (cross_validate) result.left_out = leave_out_in_turn(fit, settings, result.fit.estimate, show);
   for (const CrossValidation& c : result.left_out)
     warn_of_temperature(fmt::format("P gain {:g} is", c.p_gain), c.left_out_temperature, c.fit_temperature,
@@ -133,6 +216,10 @@ Identification identify_motor(std::vector<MotorRecord> fit, std::vector<MotorRec
                                            gaps == 1 ? "" : "s"));
       result.records.push_back(predicted(std::move(r), records == &validation, result.fit.estimate));
     }
+  for (std::size_t i = 0; i < partial.errors.size(); ++i) result.records[i].unseen_error = partial.errors[i];
+  if (!validation.empty())
+    result.validation = {UnseenData::named_records, 1, mean_error(result.records, true),
+                         mean_error(result.records, false)};
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -12,6 +12,7 @@ struct PredictedRecord {
   bool is_validation = false;  ///< left out of the fit
   RecordError error;
   Residuals residuals;
+  std::optional<double> unseen_error{};  ///< rad: mean |error| of fits that have not seen it, see Validation
 };
 
 /// A fit without the records of one P gain, and its error on them. All errors are means of |error|, rad.
@@ -23,10 +24,22 @@ struct CrossValidation {
   std::optional<TemperatureSpan> fit_temperature{}, left_out_temperature{};
 };
 
+/// Data that a fit has not seen.
+enum class UnseenData : std::uint8_t { named_records, each_record, groups_of_records, last_quarter };
+
+/// How far fits are from data that they have not seen.
+struct Validation {
+  UnseenData data = UnseenData::named_records;
+  unsigned fits = 1;        ///< without some of the data
+  double unseen_error = 0;  ///< rad: mean |error| on the unseen data; the mean over records
+  double fit_error = 0;     ///< rad: the same of the fit of all on the same data; of named records on those of the fit
+};
+
 struct Identification {
   FitSettings settings;
   FitResult fit;
   std::vector<PredictedRecord> records;
+  Validation validation;
   std::vector<CrossValidation> left_out;
   std::vector<std::string> notes;
   double seconds = 0;  ///< wall-clock time
@@ -44,7 +57,9 @@ double recorded_gain(const std::vector<MotorRecord>& records);
 /// How far the gain that duties say may be from the true one, relative: in fast movements duties lag behind positions.
 inline constexpr double recorded_gain_tolerance = 0.1;
 
-/// Fits, and predicts all records. `cross_validate`: fits again without each P gain in turn.
+/// Fits, and predicts all records. Where `validation` is empty, it fits again without a part of the data in turn: each
+/// record, one of six groups where there are more, the last quarter where there is one record. `cross_validate`: fits
+/// again without each P gain in turn.
 Identification identify_motor(std::vector<MotorRecord> fit, std::vector<MotorRecord> validation,
                               const FitSettings& settings, bool cross_validate,
                               const std::function<void(const std::string&, double)>& show = {});

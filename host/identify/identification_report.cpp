@@ -75,6 +75,35 @@ double middle_voltage(const Identification& id) {
   return volts[volts.size() / 2];
 }
 
+/// For programs.
+const char* word_of(UnseenData data) {
+  switch (data) {
+    case UnseenData::named_records:
+      return "named_records";
+    case UnseenData::each_record:
+      return "each_record_in_turn";
+    case UnseenData::groups_of_records:
+      return "groups_of_records_in_turn";
+    case UnseenData::last_quarter:
+      break;
+  }
+  return "last_quarter";
+}
+
+/// What was not seen; empty where the user has said it.
+std::string unseen_line(const Validation& v) {
+  if (v.data == UnseenData::named_records) return "";
+  if (v.data == UnseenData::each_record)
+    return "Not seen: each record in turn is left out, and predicted by a fit of the others.\n";
+  if (v.data == UnseenData::groups_of_records)
+    return fmt::format(
+        "Not seen: each of {} groups of records in turn is left out, and predicted by a fit of the others.\n", v.fits);
+  return fmt::format(
+      "Not seen: the last quarter of the record, predicted by a fit of what comes before it; the fit of all has {:.4f} "
+      "rad there.\n",
+      v.fit_error);
+}
+
 }  // namespace
 
 std::string scenario_fragment(const Identification& id) {
@@ -94,6 +123,7 @@ std::string scenario_fragment(const Identification& id) {
                         digits(m.friction.stribeck_exponent));
   if (load) text += fmt::format(",\n        load_friction: {}", digits(m.friction.load));
   if (load && stribeck) text += fmt::format(", load_stribeck_friction: {}", digits(m.friction.load_stribeck));
+  if (id.fit.estimate.offset != 0) text += fmt::format(",\n        offset: {}", digits(id.fit.estimate.offset));
   if (id.fit.estimate.delay > 0) text += fmt::format(", delay: {}", digits(id.fit.estimate.delay));
   return text + "}\n";
 }
@@ -106,9 +136,12 @@ std::string report_text(const Identification& id, bool markdown) {
                       fitted == 1 ? "" : "s", mean_error(id.records, false));
   if (fitted < id.records.size())
     text += fmt::format(", {:.4f} rad on the {} left out", mean_error(id.records, true), id.records.size() - fitted);
+  else
+    text += fmt::format(" of the fit, {:.4f} rad on what it has not seen", id.validation.unseen_error);
   text +=
       fmt::format(".\nOpen simulation of each record from its first sample on; {} simulations, {:.0f} s, seed {}.\n",
                   id.fit.evaluations, id.seconds, id.settings.seed);
+  text += (markdown && fitted == id.records.size() ? "\n" : "") + unseen_line(id.validation);
 
   text += heading("Parameters, at the output", markdown);
   std::vector<std::vector<std::string>> rows{{"parameter", "value", "unit", "+-", "remark"}};
@@ -119,10 +152,14 @@ std::string report_text(const Identification& id, bool markdown) {
 
   text += heading("Error by record", markdown);
   rows = {{"record", "P gain", "use", "mean |error|, rad", "RMS, rad", "largest, rad"}};
-  for (const PredictedRecord& r : id.records)
+  const bool has_unseen = fitted == id.records.size();
+  if (has_unseen) rows.front().push_back("not seen: mean |error|, rad");
+  for (const PredictedRecord& r : id.records) {
     rows.push_back({short_name(r.record), fmt::format("{:g}", r.record.p_gain), r.is_validation ? "left out" : "fit",
                     fmt::format("{:.4f}", r.error.mean), fmt::format("{:.4f}", r.error.rms),
                     fmt::format("{:.4f}", r.error.largest)});
+    if (has_unseen) rows.back().push_back(r.unseen_error ? fmt::format("{:.4f}", *r.unseen_error) : "");
+  }
   text += table_of(rows, markdown);
 
   if (!id.left_out.empty()) {
@@ -158,7 +195,8 @@ std::string report_json(const Identification& id) {
                        {"left_out", r.is_validation},
                        {"mean_error", r.error.mean},
                        {"rms_error", r.error.rms},
-                       {"largest_error", r.error.largest}});
+                       {"largest_error", r.error.largest},
+                       {"unseen_mean_error", r.unseen_error ? json(*r.unseen_error) : json()}});
   for (const CrossValidation& c : id.left_out)
     left_out.push_back({{"p_gain", c.p_gain},
                         {"fit_error", c.fit_error},
@@ -170,6 +208,11 @@ std::string report_json(const Identification& id) {
                     {"duty_limit", id.fit.estimate.motor.duty_limit},
                     {"mean_error", mean_error(id.records, false)},
                     {"mean_error_left_out", mean_error(id.records, true)},
+                    {"validation",
+                     {{"unseen", word_of(id.validation.data)},
+                      {"fits", id.validation.fits},
+                      {"mean_error", id.validation.unseen_error},
+                      {"fit_mean_error", id.validation.fit_error}}},
                     {"parameters", parameters},
                     {"at_bounds", bounds},
                     {"records", records},

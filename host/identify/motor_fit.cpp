@@ -20,6 +20,11 @@ namespace muro::host {
 namespace {
 
 constexpr double coarse_step = 0.006, fine_step = 0.002;  // s
+/// Evaluations of the objective, for each parameter.
+struct Effort {
+  unsigned global, coarse, fine;  ///< of the random search; of Subplex in coarse and in fine steps
+};
+constexpr Effort whole_effort{500, 150, 100}, part_effort{150, 80, 30};
 constexpr double huber = 0.01;  // rad: errors above count by their size, below by their square
 
 /// What is minimized.
@@ -39,11 +44,8 @@ class Objective {
       if (e.delay != 0) delayed = prepare((*records_)[i], longest_step_, e.delay);
       sum += error_of_record(e.delay != 0 ? delayed : prepared_[i], e);
     }
-    ++evaluations;
     return sum / double(prepared_.size());
   }
-
-  mutable std::uint64_t evaluations = 0;
 
  private:
   static double error_of_record(const PreparedRecord& r, const MotorEstimate& e) {
@@ -71,15 +73,23 @@ struct Candidate {
 
 #ifdef MURO_HAS_NLOPT
 
-double call(unsigned, const double* x, double*, void* objective) {
-  return (*static_cast<const Objective*>(objective))(x);
+struct CountedObjective {
+  const Objective& objective;
+  std::uint64_t evaluations = 0;
+};
+
+double call(unsigned, const double* x, double*, void* counted) {
+  auto& c = *static_cast<CountedObjective*>(counted);
+  ++c.evaluations;
+  return c.objective(x);
 }
 
 /// Improves `c` by an algorithm of NLopt within `evaluations`.
 void improve(nlopt::algorithm algorithm, const Objective& objective, unsigned evaluations, double first_step,
              Candidate& c) {
   nlopt::opt search(algorithm, unsigned(c.x.size()));
-  search.set_min_objective(call, const_cast<Objective*>(&objective));
+  CountedObjective counted{objective};
+  search.set_min_objective(call, &counted);
   search.set_lower_bounds(0);
   search.set_upper_bounds(1);
   search.set_maxeval(int(evaluations));
@@ -87,13 +97,12 @@ void improve(nlopt::algorithm algorithm, const Objective& objective, unsigned ev
   if (first_step > 0) search.set_initial_step(first_step);
   std::vector<double> x = c.x;
   double error = c.error;
-  const std::uint64_t before = objective.evaluations;
   try {
     search.optimize(x, error);
   } catch (const std::exception&) {  // what it has found until then counts
     error = objective(x.data());
   }
-  c.evaluations += objective.evaluations - before;
+  c.evaluations += counted.evaluations;
   if (error < c.error) c.x = x, c.error = error;
 }
 
@@ -111,12 +120,15 @@ Candidate search_from(unsigned number, const Objective& objective, const SearchS
   return c;
 }
 
+unsigned evaluations(unsigned wanted, unsigned for_each, const SearchSpace& space) {
+  return wanted > 0 ? wanted : for_each * unsigned(space.size());
+}
+
 /// All searches, on `threads` threads; what comes out does not depend on them.
 std::vector<Candidate> search_everywhere(const Objective& objective, const SearchSpace& space, const FitSettings& s,
                                          const std::function<void(double)>& show) {
-  const auto n = unsigned(space.size());
-  const unsigned global = s.global_evaluations > 0 ? s.global_evaluations : 500 * n;
-  const unsigned local = s.local_evaluations > 0 ? s.local_evaluations : 150 * n;
+  const unsigned global = evaluations(s.global_evaluations, whole_effort.global, space);
+  const unsigned local = evaluations(s.local_evaluations, whole_effort.coarse, space);
   std::vector<Candidate> candidates(s.starts);
   std::atomic<unsigned> next{0}, done{0};
   const auto work = [&] {
@@ -134,6 +146,17 @@ std::vector<Candidate> search_everywhere(const Objective& objective, const Searc
 }
 
 #endif
+
+/// All of the result that `best` says.
+void take_result(const std::vector<MotorRecord>& records, const SearchSpace& space, const Candidate& best,
+                 FitResult& result) {
+  result.evaluations += best.evaluations;
+  result.estimate = space.estimate(best.x.data());
+  result.parameters = space.described(best.x.data());
+  for (const MotorRecord& r : records)
+    result.mean_error +=
+        error_of(prepare(r, fine_step, result.estimate.delay), result.estimate).mean / double(records.size());
+}
 
 /// How far each parameter may go, with all others adapted, until the RMS error is 1 % larger: by the derivatives of the
 /// errors at the optimum. 0 for those at a bound.
@@ -214,20 +237,40 @@ FitResult fit_motor(const std::vector<MotorRecord>& records, const FitSettings& 
   Candidate last = *best;
   last.evaluations = 0;
   last.error = fine(last.x.data());
-  const auto n = unsigned(space.size());
-  const unsigned local = settings.local_evaluations > 0 ? settings.local_evaluations : 100 * n;
+  const unsigned local = evaluations(settings.local_evaluations, whole_effort.fine, space);
   improve(nlopt::LN_SBPLX, fine, local, 0.02, last);
   if (show) show(0.9);
   improve(nlopt::LN_SBPLX, fine, local, 0.005, last);
-  result.evaluations += last.evaluations;
-  result.estimate = space.estimate(last.x.data());
-  result.parameters = space.described(last.x.data());
-  for (const MotorRecord& r : records)
-    result.mean_error +=
-        error_of(prepare(r, fine_step, result.estimate.delay), result.estimate).mean / double(records.size());
+  take_result(records, space, last, result);
   find_ranges(records, space, last, result);
   warn_of_bounds(result);
+  result.optima.push_back(result.parameters);
+  for (const Candidate& c : all) result.optima.push_back(space.described(c.x.data()));
   if (show) show(1);
+  return result;
+}
+
+FitResult refit_motor(const std::vector<MotorRecord>& records, const FitSettings& settings, const FitResult& whole) {
+  const SearchSpace space(records, settings);
+  const Objective coarse(records, space, coarse_step), fine(records, space, fine_step);
+  const unsigned global = evaluations(settings.global_evaluations, part_effort.global, space);
+  const unsigned local = evaluations(settings.local_evaluations, part_effort.coarse, space);
+  Candidate near;
+  for (const std::vector<FitParameter>& optimum : whole.optima) {
+    Candidate c;
+    c.x = space.coordinates(optimum);
+    c.error = coarse(c.x.data());
+    if (near.x.empty() || c.error < near.error) near = c;
+  }
+  improve(nlopt::LN_SBPLX, coarse, local, 0.05, near);
+  // so that what these records do not tell is not taken from the others alone
+  const Candidate own = search_from(settings.starts, coarse, space, settings, global, local);
+  Candidate best = own.error < near.error ? own : near;
+  best.evaluations = own.evaluations + near.evaluations;
+  best.error = fine(best.x.data());
+  improve(nlopt::LN_SBPLX, fine, evaluations(settings.local_evaluations, part_effort.fine, space), 0.02, best);
+  FitResult result;
+  take_result(records, space, best, result);
   return result;
 }
 
@@ -237,6 +280,10 @@ bool can_fit() { return false; }
 
 FitResult fit_motor(const std::vector<MotorRecord>&, const FitSettings&, const std::function<void(double)>&) {
   throw SetupError("this muro was built without NLopt, which the search needs (Debian: libnlopt-cxx-dev)");
+}
+
+FitResult refit_motor(const std::vector<MotorRecord>& records, const FitSettings& settings, const FitResult&) {
+  return fit_motor(records, settings);
 }
 
 #endif

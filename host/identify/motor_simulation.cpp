@@ -38,11 +38,18 @@ double initial_slope(const MotorRecord& r, std::size_t first, std::size_t end) {
   return normal.topLeftCorner<2, 2>().ldlt().solve(right.head<2>())[1] / slope_window;
 }
 
-/// The command that holds at `time`: that of the last sample at or before it.
-const RecordSample& command_at(const MotorRecord& r, double time, std::size_t& hint) {
-  while (hint + 1 < r.samples.size() && r.samples[hint + 1].time <= time) ++hint;
-  while (hint > 0 && r.samples[hint].time > time) --hint;
-  return r.samples[hint];
+/// rad: the mean from sample `i` to the next one of the goals that the servo has had for `delay` (s). `command`: the
+/// sample whose goal it has had last, at most `i`.
+double mean_goal(const MotorRecord& r, std::size_t i, double delay, std::size_t& command) {
+  const double from = r.samples[i].time, to = r.samples[i + 1].time;
+  const auto comes = [&](std::size_t k) { return r.samples[k].time + delay; };
+  while (command < i && comes(command + 1) <= from) ++command;
+  double sum = 0, begin = from;
+  for (; command < i && comes(command + 1) < to; ++command) {
+    sum += (comes(command + 1) - begin) * r.samples[command].goal;
+    begin = comes(command + 1);
+  }
+  return (sum + (to - begin) * r.samples[command].goal) / (to - from);
 }
 
 }  // namespace
@@ -54,7 +61,7 @@ PreparedRecord prepare(const MotorRecord& r, double longest_step, double delay) 
   p.has_temperature = r.has_temperature;
   p.load = r.load;
   const double gap = std::max(gap_factor * usual_period(r), shortest_gap);
-  std::size_t hint = 0;
+  std::size_t command = 0;
   for (std::size_t first = 0; first + 1 < r.samples.size();) {
     std::size_t end = first + 1;
     while (end < r.samples.size() && r.samples[end].time - r.samples[end - 1].time <= gap) ++end;
@@ -62,13 +69,14 @@ PreparedRecord prepare(const MotorRecord& r, double longest_step, double delay) 
     s.first = first;
     s.initial_position = r.samples[first].position;
     s.initial_velocity = initial_slope(r, first, end);
+    s.intervals.reserve(end - first - 1);
     for (std::size_t i = first; i + 1 < end; ++i) {
-      const double dt = r.samples[i + 1].time - r.samples[i].time;
+      const RecordSample& sample = r.samples[i];
+      const double dt = r.samples[i + 1].time - sample.time;
       const auto steps = std::int32_t(std::ceil(dt / longest_step - 1e-9));
-      const RecordSample& command =
-          delay == 0 ? r.samples[i] : command_at(r, r.samples[i].time + 0.5 * dt - delay, hint);
-      s.intervals.push_back({command.goal, r.samples[i].supply_voltage, dt / steps, steps, command.torque_enable,
-                             r.samples[i].temperature, r.samples[i + 1].position});
+      const double goal = delay == 0 ? sample.goal : mean_goal(r, i, delay, command);
+      s.intervals.push_back({goal, sample.supply_voltage, dt / steps, steps, sample.torque_enable, sample.temperature,
+                             r.samples[i + 1].position});
     }
     p.sample_count += s.intervals.size();
     if (end < r.samples.size()) ++p.gap_count;

@@ -29,7 +29,7 @@ struct MotorEstimate {
 };
 
 /// A part of a record without gaps, as the simulation takes it: the interval from each sample to the next in `steps`
-/// equal steps.
+/// equal steps. Of a delayed goal that changes within an interval it has the mean.
 struct RecordSegment {
   std::size_t first = 0;  ///< sample of the record
   double initial_velocity = 0;
@@ -55,6 +55,7 @@ struct PreparedRecord {
   std::size_t sample_count = 0;  ///< that are compared
   std::size_t gap_count = 0;
 };
+/// `delay` (s): of goals; the torque's enable and the supply have none, as in motor.servo.
 PreparedRecord prepare(const MotorRecord& record, double longest_step, double delay = 0);
 
 /// Simulates a segment of `record`; `visit(position error, interval)` at the end of each interval. Torques and

@@ -122,6 +122,14 @@ double SearchSpace::coordinate(std::size_t i, double value) const {
   return (v - p.low) / (p.high - p.low);
 }
 
+std::vector<double> SearchSpace::coordinates(const std::vector<FitParameter>& others) const {
+  std::vector<double> x(size(), 0.5);
+  for (std::size_t i = 0; i < size(); ++i)
+    for (const FitParameter& other : others)
+      if (other.name == parameters_[i].name) x[i] = coordinate(i, other.value);
+  return x;
+}
+
 MotorEstimate SearchSpace::estimate(const double* x) const {
   MotorEstimate e;
   e.motor.gain = settings_.gain;

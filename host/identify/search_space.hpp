@@ -15,6 +15,8 @@ class SearchSpace {
   /// The value of parameter `i` at `x`, 0 .. 1 from its lower to its upper bound, and back.
   double value(std::size_t i, double x) const;
   double coordinate(std::size_t i, double value) const;
+  /// The coordinates of parameters of another space, by their names; the middle where it has none of a name.
+  std::vector<double> coordinates(const std::vector<FitParameter>& others) const;
   /// `x`: one per parameter.
   MotorEstimate estimate(const double* x) const;
   /// Parameters with their values at `x`, and whether they are at a bound.

@@ -93,6 +93,24 @@ TEST_F(MotorFit, PredictsWithM4WithinTheNoise) {
   EXPECT_LT(r.mean_error, 2e-3);
 }
 
+TEST_F(MotorFit, OfAPartOfTheRecordsFindsTheirMotor) {
+  // the whole has a record of a weaker motor, which the part leaves out
+  test::SimulatedBench bench{.motor = xl330_m1()}, weak = bench;
+  weak.motor.motor.resistance *= 1.5, weak.motor.offset = -0.05;
+  bench.duration = weak.duration = 3;
+  std::vector<MotorRecord> records = bench.records(200, 800);
+  records[1] = weak.records(200, 800)[1];
+  FitSettings s = quick(FrictionKind::m1);
+  const FitResult whole = fit_motor(records, s);
+  EXPECT_GT(whole.mean_error, 5e-3);
+  s.threads = 1;
+  const FitResult part = refit_motor({records[0], records[2], records[3]}, s, whole);
+  expect_motor(part.estimate, bench.motor, 0.03);
+  EXPECT_NEAR(part.estimate.offset, 0.02, 2e-3);
+  EXPECT_LT(part.mean_error, 1.1e-3) << "the noise is 1e-3 rad, 0.8e-3 its mean size";
+  EXPECT_LT(part.evaluations, whole.evaluations / 4);
+}
+
 TEST_F(MotorFit, IsTheSameForAnyNumberOfThreads) {
   test::SimulatedBench bench{.motor = xl330_m1()};
   bench.duration = 2;
@@ -178,8 +196,10 @@ TEST(OpenSimulation, ADelayShiftsTheCommands) {
   MotorRecord r;
   for (int i = 0; i < 40; ++i) r.samples.push_back({.time = 0.01 * i, .goal = double(i), .supply_voltage = 5});
   const PreparedRecord p = prepare(r, 0.01, 0.02);
-  EXPECT_EQ(p.segments.front().intervals[10].goal, 8);
+  EXPECT_NEAR(p.segments.front().intervals[10].goal, 8, 1e-9);
   EXPECT_EQ(prepare(r, 0.01).segments.front().intervals[10].goal, 10);
+  EXPECT_NEAR(prepare(r, 0.01, 0.0125).segments.front().intervals[10].goal, 0.25 * 8 + 0.75 * 9, 1e-9)
+      << "the mean of what comes in it";
 }
 
 }  // namespace

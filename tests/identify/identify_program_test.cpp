@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "host/identify/motor_fit.hpp"
@@ -25,6 +26,7 @@ class IdentifyProgram : public testing::Test {
                .armature = 0.00181,
                .gain = 0.0028773775,
                .friction = {.coulomb = 0.0128, .viscous = 0.0037}};
+    e.offset = 0.03;
     test::SimulatedBench bench{.motor = e};
     bench.duration = 2;
     int number = 0;
@@ -73,6 +75,61 @@ TEST_F(IdentifyProgram, WritesAReportAPictureAndAFragmentThatRuns) {
                   fragment);
   const auto s = run("run @s.yaml");
   EXPECT_EQ(s.exit_code, 0) << s.output;
+  // a run with the fragment is as far from the records as identify says
+  const auto against = run("compare @s.yaml --against @r0.csv @r1.csv @r3.csv @r2.csv --csv @t.csv");
+  ASSERT_EQ(against.exit_code, 0) << against.output;
+  std::istringstream table(text_of("t.csv"));
+  std::string line;
+  std::getline(table, line);
+  for (const auto& record : nlohmann::json::parse(text_of("r.json"))["records"]) {
+    double error = 0;
+    std::getline(table, line);
+    ASSERT_EQ(std::sscanf(line.c_str(), "%*[^,],%*[^,],%*[^,],%lf", &error), 1) << line;
+    EXPECT_NEAR(error, record["mean_error"].get<double>(), 1e-4) << line;
+  }
+}
+
+TEST_F(IdentifyProgram, TellsTheErrorOnRecordsThatItHasNotSeen) {
+  const std::string all = "identify @r0.csv @r1.csv @r3.csv --model m1 --duty-gain 0.0028773775 ";
+  const auto r = run(all + "--report @r.json");
+  ASSERT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_NE(r.output.find("rad on what it has not seen.\n"), std::string::npos) << r.output;
+  EXPECT_NE(r.output.find("each record in turn is left out, and predicted by a fit of the others"), std::string::npos);
+  const nlohmann::json report = nlohmann::json::parse(text_of("r.json"));
+  EXPECT_EQ(report["validation"]["unseen"], "each_record_in_turn");
+  EXPECT_EQ(report["validation"]["fits"], 3);
+  double sum = 0;
+  for (const auto& record : report["records"]) sum += record["unseen_mean_error"].get<double>() / 3;
+  EXPECT_NEAR(report["validation"]["mean_error"].get<double>(), sum, 1e-12);
+  // the same as naming the record
+  ASSERT_EQ(run(all + "--validate @r3.csv --report @v.json").exit_code, 0);
+  const nlohmann::json named = nlohmann::json::parse(text_of("v.json"));
+  EXPECT_EQ(named["validation"]["unseen"], "named_records");
+  EXPECT_NEAR(named["validation"]["mean_error"].get<double>(), report["records"][2]["unseen_mean_error"].get<double>(),
+              3e-4);
+}
+
+TEST_F(IdentifyProgram, OfASingleRecordItPredictsTheLastQuarter) {
+  // an encoder that slips by 0.2 rad where the last quarter begins: the fit of what is before knows nothing of it
+  std::istringstream in(text_of("r1.csv"));
+  std::string changed;
+  for (std::string line; std::getline(in, line);) {
+    double time = 0, position = 0;
+    int end = 0;
+    if (std::sscanf(line.c_str(), "%lf,%lf%n", &time, &position, &end) == 2 && time > 1.502)
+      line = std::to_string(time) + "," + std::to_string(position + 0.2) + line.substr(std::size_t(end));
+    changed += line + "\n";
+  }
+  folder.file("r1.csv", changed);
+  const auto r = run("identify @r1.csv --model m1 --duty-gain 0.0028773775 --report @r.json");
+  ASSERT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_NE(r.output.find("the last quarter of the record, predicted by a fit of what comes before it"),
+            std::string::npos)
+      << r.output;
+  const nlohmann::json validation = nlohmann::json::parse(text_of("r.json"))["validation"];
+  EXPECT_EQ(validation["unseen"], "last_quarter");
+  EXPECT_NEAR(validation["mean_error"].get<double>(), 0.2, 0.01);
+  EXPECT_LT(validation["fit_mean_error"].get<double>(), 0.19);
 }
 
 TEST_F(IdentifyProgram, ARecordWhoseDutiesSayAnotherGainKeepsIt) {
