@@ -28,7 +28,7 @@ void Springs::feel_at_rest(const BothLegs& sag, const BothLegs& behind, double h
 /// Without the ankles, which feedback turns. Joints that meet their targets are soon known, before feedback does harm;
 /// springs come back smoothly.
 void Springs::feel(const BothLegs& sag, const BothLegs& behind, const Reference& now, double h) {
-  constexpr double meets = 0.1;    // of the largest sag: a joint that is less behind meets its target
+  constexpr double meets = 0.04;   // of the largest sag: a joint that is less behind meets its target
   constexpr double soon = 0.02;    // s, for which all of them do
   constexpr double memory = 0.05;  // s, of `given_`
   double along = 0, all = 0, largest_sag = 0, largest_behind = 0;
