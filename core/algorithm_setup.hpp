@@ -32,6 +32,7 @@ struct AlgorithmSetup {
   std::vector<ItemSetup> item_setups;  ///< one an item; none: all have `parameters`
   std::string subsystem;               ///< "motion": with the robot's name, keys the random numbers
   std::string folder;                  ///< relative paths in parameters start here; "": the working directory
+  bool is_optional = false;            ///< where it cannot be connected it is left out, with a warning
   std::string place;                   ///< "file:line:column" of the scenario, put before messages; may be empty
   /// Of parameters that are written elsewhere: in another file, or on the command line.
   std::map<std::string, std::string> parameter_places;

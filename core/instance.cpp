@@ -95,24 +95,34 @@ void Instance::connect_by_name() {
 }
 
 void Instance::start() {
+  if (is_left_out_) return;
   const CallScope scope(*callee_, "start");
   abi::ErrorText error;
   require(algorithm_->start(error), error, "cannot start");
 }
 
 void Instance::restored() {
+  if (is_left_out_) return;
   const CallScope scope(*callee_, "restored");
   abi::ErrorText error;
   require(algorithm_->restored(error), error, "cannot go on from the restored state");
 }
 
 void Instance::finish() {
+  if (is_left_out_) return;
   const CallScope scope(*callee_, "finish");
   abi::ErrorText error;
   require(algorithm_->finish(error), error, "cannot finish");
 }
 
+void Instance::leave_out() {
+  is_left_out_ = true;
+  bound_.clear();
+  setup_.rate = Rate();  // on demand, where nobody reads what it writes
+}
+
 bool Instance::on_handover(std::uint32_t item, abi::ErrorText& error) {
+  if (is_left_out_) return true;
   const CallScope scope(*callee_, "on_handover", running_call().time.load());
   running_call().note.set_item(item);
   abi::ErrorText reason;

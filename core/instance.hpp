@@ -59,6 +59,9 @@ class Instance final : private Connector {
   /// Throws SetupError with the algorithm's own words.
   void connect();
   void connect_by_name();
+  /// It takes no part in the run: it is never called again, and reads and writes nothing.
+  void leave_out();
+  bool is_left_out() const { return is_left_out_; }
   void start();
   void restored();
   void finish();
@@ -123,6 +126,7 @@ class Instance final : private Connector {
     Usage usage;
   };
   std::vector<Bound> bound_;
+  bool is_left_out_ = false;
   std::vector<bool> inactive_at_start_;
 };
 

@@ -152,7 +152,7 @@ class Merging {
     if (m.items.empty()) return false;
     if (use.is_of_world) return world_of(m) == world_of(s);
     if (m.rate != s.rate || m.phase != s.phase || m.parameters != s.parameters || m.folder != s.folder ||
-        m.subsystem != s.subsystem)
+        m.subsystem != s.subsystem || m.is_optional != s.is_optional)
       return false;
     if (m.name == s.name) return true;
     // of several motions of one robot each is an instance; check_single_roles() looks whether it may have them

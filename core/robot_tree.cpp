@@ -12,6 +12,7 @@
 #include "core/extent_along.hpp"
 #include "core/point_bounds.hpp"
 #include "core/value_check.hpp"
+#include "muro/ext/model_subsystems.hpp"
 #include "muro/ext/visual_materials.hpp"
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/elementary.hpp"
@@ -173,17 +174,35 @@ void RobotTree::set_raw(const KeyInfo& key, const void* data, std::uint32_t coun
         Severity::error,
         fmt::format("`{}` of {} {}", key.name, in_backquotes(components_[std::size_t(last_component_)].name), problem),
         0, 0);
-  if (key.name == keys::visual_materials.name) {
-    const auto* names = static_cast<const TextId*>(data);
-    const auto is_known = [&](TextId id) { return std::size_t(id) < texts_.size(); };
-    if (!std::all_of(names, names + elements, is_known))
-      return report(Severity::error, "names of materials are not interned with the robot that has them", 0, 0);
-    components_[std::size_t(last_component_)].visual_materials.assign(names, names + elements);
+  if (key.name == keys::visual_materials.name) return take_materials({static_cast<const TextId*>(data), elements});
+  if (key.name == keys::model_subsystems.name) return take_subsystems({static_cast<const TextId*>(data), elements});
+  if (key.name == keys::model_subsystem_places.name) {
+    const auto* const places = static_cast<const std::int32_t*>(data);
+    for (std::size_t i = 0; i < std::min<std::size_t>(subsystems_.size(), elements / 2); ++i)
+      subsystems_[i].line = places[2 * i], subsystems_[i].column = places[2 * i + 1];
     return;
   }
   const auto* first = static_cast<const std::byte*>(data);
   const std::size_t bytes = std::size_t(elements) * key.type->size;
   components_[std::size_t(last_component_)].constants.push_back({key, count, {first, first + bytes}});
+}
+
+bool RobotTree::are_interned(std::span<const TextId> ids, const char* what) {
+  const auto is_known = [&](TextId id) { return std::size_t(id) < texts_.size(); };
+  if (std::all_of(ids.begin(), ids.end(), is_known)) return true;
+  report(Severity::error, fmt::format("{} are not interned with the robot that has them", what), 0, 0);
+  return false;
+}
+
+void RobotTree::take_materials(std::span<const TextId> names) {
+  if (are_interned(names, "names of materials"))
+    components_[std::size_t(last_component_)].visual_materials.assign(names.begin(), names.end());
+}
+
+void RobotTree::take_subsystems(std::span<const TextId> texts) {
+  if (!are_interned(texts, "subsystems")) return;
+  subsystems_.clear();
+  for (const TextId text : texts) subsystems_.push_back({std::string(texts_[text])});
 }
 
 void RobotTree::close() {

@@ -48,6 +48,11 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
     Link link;                ///< without object ids
     std::string mimic_leader;
   };
+  /// A subsystem that the model brings, as a scenario writes it.
+  struct Subsystem {
+    std::string text;
+    int line = 0, column = 0;  ///< in the model's file, from 1; 0: unknown
+  };
   struct Problem {
     Severity severity;
     std::string text;
@@ -78,6 +83,7 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
   const std::vector<FlatLink>& links() const { return links_; }
   const TextTable& texts() const { return texts_; }
   const std::vector<Problem>& problems() const { return problems_; }
+  const std::vector<Subsystem>& subsystems() const { return subsystems_; }
   bool usable() const;
 
   /// The corners (m) of the convex hull of a mesh file; empty: its mesh counts as a point.
@@ -100,6 +106,9 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
 
  private:
   void set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept override;
+  void take_materials(std::span<const TextId> names);
+  void take_subsystems(std::span<const TextId> texts);
+  bool are_interned(std::span<const TextId> ids, const char* what);
   void joint(NodeKind kind, std::string_view name, const Vec3& axis, const JointLimits& limits);
   std::int32_t add_component(std::string_view name);
   void add_node(NodeKind kind, std::string_view name);
@@ -124,6 +133,7 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
   std::vector<FlatLink> links_;
   TextTable texts_;
   std::vector<Problem> problems_;
+  std::vector<Subsystem> subsystems_;
   std::span<const PackageFolder> packages_;
   std::map<std::string, std::int32_t, std::less<>> component_index_;
 };

@@ -149,6 +149,7 @@ class Simulation {
   std::vector<std::size_t> in_order_of(int (*order)(const Description&)) const;
   void schedule();
   void connect_all();
+  void connect_or_leave_out(Instance& instance, void (Instance::*how)());
   void check_outputs();
   void start_all();
   void begin_epoch();

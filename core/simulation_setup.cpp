@@ -96,6 +96,16 @@ void Simulation::mark_inactive_motions() {
   }
 }
 
+void Simulation::connect_or_leave_out(Instance& instance, void (Instance::*how)()) {
+  try {
+    (instance.*how)();
+  } catch (const SetupError& e) {
+    if (!instance.setup().is_optional) throw;
+    instance.leave_out();
+    log_->log(LogLevel::warning, fmt::format("{}; it is left out", e.what()));
+  }
+}
+
 /// What serves a robot builds on the kinds before it: where one of those has failed, it would only find what follows
 /// from that, and is left out.
 void Simulation::connect_all() {
@@ -107,9 +117,9 @@ void Simulation::connect_all() {
       const int order = order_of_kinds(instance.description());
       const std::vector<Item>& items = instance.setup().items;
       const auto follows = [&](const Item& item) { return failed.contains(item.robot) && failed[item.robot] < order; };
-      if (std::any_of(items.begin(), items.end(), follows)) continue;
+      if (instance.is_left_out() || std::any_of(items.begin(), items.end(), follows)) continue;
       outputs().set_owner(world_.store().accessor_name(instance.accessor()));
-      if (problems.run([&] { (instance.*how)(); })) continue;
+      if (problems.run([&] { connect_or_leave_out(instance, how); })) continue;
       for (const Item& item : items)
         if (item.robot) failed.emplace(item.robot, order);
     }

@@ -54,6 +54,11 @@ const Description* Algorithms::describe(const Subsystem& s) {
   return d;
 }
 
+bool Algorithms::is_installed(const std::string& use) const {
+  const std::vector<CatalogEntry>& all = registry_.catalog();
+  return std::any_of(all.begin(), all.end(), [&](const CatalogEntry& entry) { return entry.id == use; });
+}
+
 bool Algorithms::is_kind(const Subsystem& s, Kind kind) {
   const Description* d = describe(s);
   return d && d->kind == kind;
@@ -70,6 +75,7 @@ void Algorithms::add(const Subsystem& s, const std::string& name, std::vector<It
   setup.name = name;
   setup.use = s.use;
   setup.subsystem = s.name;
+  setup.is_optional = s.is_optional;
   setup.parameters = s.parameters;
   setup.parameter_places = s.parameter_places;
   setup.items = std::move(items);

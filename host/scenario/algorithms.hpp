@@ -20,6 +20,8 @@ class Algorithms {
 
   /// The description of the algorithm that a subsystem uses; null, and a problem, when it cannot be loaded.
   const Description* describe(const Subsystem& s);
+  /// Whether there is an algorithm of this name.
+  bool is_installed(const std::string& use) const;
   bool is_kind(const Subsystem& s, Kind kind);
   /// Adds an algorithm for these items. Sequences may name it by `name`, or by `template_name`, which it shares with
   /// those of other robots of the template.

@@ -18,6 +18,7 @@
 #include "host/scenario/joint_dynamics.hpp"
 #include "host/scenario/materials.hpp"
 #include "host/scenario/model_drives.hpp"
+#include "host/scenario/model_subsystems.hpp"
 #include "host/scenario/overlaps.hpp"
 #include "host/scenario/place_properties.hpp"
 #include "host/scenario/placement.hpp"
@@ -206,6 +207,7 @@ class SceneBuilder {
         set_joint_dynamics(*m.tree, t, problems_);
         set_materials(*m.tree, t.name, t.materials, problems_);
         m.start = start_pose(*m.tree, t, problems_);
+        add_model_subsystems(t, *m.tree, t.from_world ? scenario_.world_file->path : t.model, algorithms_, problems_);
         add_model_drives(t, *m.tree, algorithms_);
         tell_of_clamped(t, m.start);
         m.poses = poses_of(t, m);

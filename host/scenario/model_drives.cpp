@@ -114,8 +114,7 @@ void add_model_drives(RobotTemplate& t, const RobotTree& tree, Algorithms& algor
     for (Subsystem& s : list) add_to_motion(s, drives, algorithms);
     changed.add_list(std::move(list));
   }
-  for (std::size_t i = 0; i < t.subsystems.size(); ++i)
-    changed.add(std::size_t(&t.subsystems[i] - t.subsystems.lists().data()));
+  for (std::size_t i = 0; i < t.subsystems.size(); ++i) changed.add(t.subsystems.list_of(i));
   t.subsystems = std::move(changed);
 }
 

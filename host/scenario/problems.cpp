@@ -48,15 +48,23 @@ bool check_name(const std::string& name, const Location& at, const std::string& 
   return false;
 }
 
-void check_switched_off(const Node& map, const std::vector<std::string>& names, const std::string& what,
-                        Problems& problems) {
+std::vector<UnknownSubsystem> unknown_switched_off(const Node& map, const std::vector<std::string>& names,
+                                                   const std::string& what) {
+  std::vector<UnknownSubsystem> unknown;
   const std::unordered_set<std::string> known(names.begin(), names.end());
   for (std::size_t i = 0; i < map.map.size(); ++i) {
     const auto& [key, value] = map.map[i];
     if (!value.is_off() || value.replaces || value.empty || known.count(key) > 0) continue;
-    problems.add(map.key_locations[i], fmt::format("nothing is named `{}` in {}, so it cannot be switched off{}", key,
-                                                   what, suggestion(key, names)));
+    unknown.push_back({key, map.key_locations[i],
+                       fmt::format("nothing is named `{}` in {}, so it cannot be switched off{}", key, what,
+                                   suggestion(key, names))});
   }
+  return unknown;
+}
+
+void check_switched_off(const Node& map, const std::vector<std::string>& names, const std::string& what,
+                        Problems& problems) {
+  for (const UnknownSubsystem& u : unknown_switched_off(map, names, what)) problems.add(u.location, u.problem);
 }
 
 }  // namespace muro::host

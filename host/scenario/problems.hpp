@@ -32,6 +32,19 @@ class Problems {
 /// no `/`, `:`, control characters or white space. `what` is named in the message: "a robot".
 bool check_name(const std::string& name, const Location& at, const std::string& what, Problems& problems);
 
+/// A mistake that may turn out to be none: a model may bring a subsystem of this name.
+struct UnknownSubsystem {
+  std::string name;
+  Location location;
+  std::string problem;
+};
+
+using TakeUnknown = std::function<void(UnknownSubsystem)>;
+
+/// Each `off` in `map` that check_switched_off refuses.
+std::vector<UnknownSubsystem> unknown_switched_off(const Node& map, const std::vector<std::string>& names,
+                                                   const std::string& what);
+
 /// Checks each `off` in `map`: it must switch off what an include, a variant or an override replaces by it, or one of
 /// `names`. `what` names the map in the message.
 void check_switched_off(const Node& map, const std::vector<std::string>& names, const std::string& what,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 #include <unordered_set>
+#include <utility>
 
 #include "host/names.hpp"
 #include "host/scenario/joint_dynamics.hpp"
@@ -66,11 +67,24 @@ class RobotReader {
     t.materials = read_materials(map.map("materials"), map.what(), problems_);
     const Node& variants = map.map("variants");
     if (node.kind == Node::Kind::map) {
-      const std::vector<Variant> read = read_variants(variants, map, t.count, subsystem_names_, problems_);
+      const std::vector<Variant> read = read_variants(
+          variants, map, t.count, subsystem_names_, [&](UnknownSubsystem u) { take_unknown(std::move(u), t); },
+          problems_);
       read_material_variants(read, map.what(), t);
       read_subsystems(map, read, t);
     }
     return t;
+  }
+
+  /// Whose file may bring subsystems.
+  static bool has_model(const RobotTemplate& t) { return t.from_world || !t.model.empty(); }
+
+  /// The model may bring it, which is known when that is read.
+  void take_unknown(UnknownSubsystem u, RobotTemplate& t) {
+    if (has_model(t))
+      t.unknown.push_back(std::move(u));
+    else
+      problems_.add(u.location, u.problem);
   }
 
   void read_material_variants(const std::vector<Variant>& variants, const std::string& what, RobotTemplate& t) {
@@ -149,8 +163,9 @@ class RobotReader {
 
   /// Every key that is not read yet must be a subsystem. Robots with the same variants share one list of subsystems.
   void read_subsystems(const MapReader& map, const std::vector<Variant>& variants, RobotTemplate& t) {
-    const Node subsystems = subsystem_nodes(map);
-    check_switched_off(subsystems, subsystem_names_, map.what(), problems_);
+    const Node subsystems = subsystem_nodes(map, t);
+    for (UnknownSubsystem& u : unknown_switched_off(subsystems, subsystem_names_, map.what()))
+      take_unknown(std::move(u), t);
     std::map<std::vector<std::size_t>, std::size_t> numbers;  // of lists, by the variants of a robot
     std::map<int, std::vector<std::size_t>> changes;          // variants that begin or end with a robot
     for (std::size_t v = 0; v < variants.size(); ++v) {
@@ -169,26 +184,28 @@ class RobotReader {
         auto known = numbers.find(indices);
         if (known == numbers.end())
           known = numbers
-                      .emplace(indices,
-                               t.subsystems.add_list(subsystems_of(merged(subsystems, variants, indices), map.what())))
+                      .emplace(indices, t.subsystems.add_list(subsystems_of(merged(subsystems, variants, indices),
+                                                                            map.what(), has_model(t))))
                       .first;
         list = known->second;
       }
       t.subsystems.add(list);
     }
-    if (t.count == 0) subsystems_of(subsystems, map.what());  // to find their mistakes
+    if (t.count == 0) subsystems_of(subsystems, map.what(), has_model(t));  // to find their mistakes
   }
 
-  Node subsystem_nodes(const MapReader& map) {
+  Node subsystem_nodes(const MapReader& map, RobotTemplate& t) {
     Node nodes;
     nodes.kind = Node::Kind::map;
     for (const auto& [key, value] : map.unread()) {
       const Location at = map.key_location(key);
-      if (is_subsystem(*value) || value->is_off())
-        nodes.child(key, at) = *value;
-      else if (value->kind == Node::Kind::map)
-        problems_.add(at, fmt::format("subsystem `{}` of {} needs `use: NAME`{}; `muro plugins list` shows the names",
-                                      key, map.what(), did_you_mean(key, template_keys)));
+      if (is_subsystem(*value) || value->is_off() || value->kind == Node::Kind::map) nodes.child(key, at) = *value;
+      if (is_subsystem(*value) || value->is_off()) continue;
+      if (value->kind == Node::Kind::map)
+        take_unknown({key, at,
+                      fmt::format("subsystem `{}` of {} needs `use: NAME`{}; `muro plugins list` shows the names", key,
+                                  map.what(), did_you_mean(key, template_keys))},
+                     t);
       else
         problems_.add(
             at, fmt::format("{} has no key `{}`{}; allowed: {}, and subsystems {{use: NAME, ...}}", map.what(), key,
@@ -197,12 +214,17 @@ class RobotReader {
     return nodes;
   }
 
-  std::vector<Subsystem> subsystems_of(const Node& nodes, const std::string& owner) {
+  /// `with_model`: also those that only change, or switch off, what the model brings.
+  std::vector<Subsystem> subsystems_of(const Node& nodes, const std::string& owner, bool with_model) {
     std::vector<Subsystem> all;
     for (std::size_t i = 0; i < nodes.map.size(); ++i) {
       const auto& [key, value] = nodes.map[i];
-      if (!is_subsystem(value) || !check_name(key, nodes.key_locations[i], "a subsystem", problems_)) continue;
-      if (has_levels(value))
+      const bool changes_model = with_model && (value.is_off() || value.kind == Node::Kind::map);
+      if (!is_subsystem(value) && !changes_model) continue;
+      if (!check_name(key, nodes.key_locations[i], "a subsystem", problems_)) continue;
+      if (value.is_off())
+        all.emplace_back().name = key, all.back().switched_off = true;
+      else if (has_levels(value))
         for (Subsystem& s : read_levels(key, value, owner, problems_)) all.push_back(std::move(s));
       else
         all.push_back(read_subsystem(key, value, owner, problems_));

@@ -11,7 +11,7 @@
 #include "core/algorithm_setup.hpp"
 #include "core/registry.hpp"
 #include "core/robot_tree.hpp"
-#include "host/scenario/node.hpp"
+#include "host/scenario/problems.hpp"
 #include "muro/shape.hpp"
 #include "muro/toolkit/pair_surface.hpp"
 
@@ -62,7 +62,9 @@ struct HandoverLevel {
 /// One use of an algorithm.
 struct Subsystem {
   std::string name;
-  std::string use;
+  std::string use;             ///< empty: changes what the model brings under this name
+  bool switched_off = false;   ///< what the model brings under this name is left out
+  bool is_optional = false;    ///< the model brings it, and the scenario does not name it
   std::optional<double> rate;  ///< Hz; absent: the default of its kind
   bool on_demand = false;
   std::optional<double> phase;  ///< s; absent: 0, and for a sensor's error that of the sensor
@@ -102,6 +104,8 @@ class SubsystemsOfRobots {
     return lists_.size() - 1;
   }
   const std::vector<Subsystem>& operator[](std::size_t robot) const { return lists_[list_of_robot_[robot]]; }
+  /// The number in `lists` of that of a robot.
+  std::size_t list_of(std::size_t robot) const { return list_of_robot_[robot]; }
   /// Robots.
   std::size_t size() const { return list_of_robot_.size(); }
   /// All that differ.
@@ -150,7 +154,8 @@ struct RobotTemplate {
   std::vector<JointDynamics> dynamics;          ///< in the order of the file
   std::vector<MaterialChange> materials;        ///< of all its robots
   std::vector<MaterialVariant> material_variants;
-  SubsystemsOfRobots subsystems;  ///< variants are merged already
+  SubsystemsOfRobots subsystems;          ///< variants are merged already
+  std::vector<UnknownSubsystem> unknown;  ///< mistakes, where the model brings nothing of these names
 };
 
 struct Scenario {

@@ -34,7 +34,7 @@ std::optional<std::pair<int, int>> parse_range(const std::string& text) {
 
 /// `own`: the subsystems of the template.
 void check_changes(const Node& changes, const std::string& what, const std::vector<std::string>& own,
-                   Problems& problems) {
+                   const TakeUnknown& unknown, Problems& problems) {
   for (std::size_t i = 0; i < changes.map.size(); ++i) {
     const auto& [key, change] = changes.map[i];
     const Location& at = changes.key_locations[i];
@@ -44,8 +44,9 @@ void check_changes(const Node& changes, const std::string& what, const std::vect
                                    "subsystems and `materials`",
                                    what, key));
     else if (change.kind == Node::Kind::map && !is_subsystem(change) && !is_among(own, key))
-      problems.add(at, fmt::format("{} changes `{}`, but the template has no subsystem of this name{}", what, key,
-                                   suggestion(key, own, "it has")));
+      unknown({key, at,
+               fmt::format("{} changes `{}`, but the template has no subsystem of this name{}", what, key,
+                           suggestion(key, own, "it has"))});
     else if (change.kind != Node::Kind::map && !change.is_off())
       problems.add(change.location,
                    fmt::format("`{}` of {} is {} but must be a map or `off`", key, what, quoted(change)));
@@ -55,7 +56,8 @@ void check_changes(const Node& changes, const std::string& what, const std::vect
 }  // namespace
 
 std::vector<Variant> read_variants(const Node& variants, const MapReader& robot, int count,
-                                   const std::vector<std::string>& subsystem_names, Problems& problems) {
+                                   const std::vector<std::string>& subsystem_names, const TakeUnknown& unknown,
+                                   Problems& problems) {
   std::vector<std::string> own;
   for (const auto& [key, value] : robot.unread())
     if (is_subsystem(*value) || value->is_off()) own.push_back(key);
@@ -74,8 +76,8 @@ std::vector<Variant> read_variants(const Node& variants, const MapReader& robot,
                    fmt::format("{} is {} but must be a map of the subsystems that differ", what, quoted(changes)));
       continue;
     }
-    check_switched_off(changes, subsystem_names, what, problems);
-    check_changes(changes, what, own, problems);
+    for (UnknownSubsystem& u : unknown_switched_off(changes, subsystem_names, what)) unknown(std::move(u));
+    check_changes(changes, what, own, unknown, problems);
   }
   return all;
 }

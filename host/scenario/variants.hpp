@@ -21,9 +21,10 @@ struct Variant {
 };
 
 /// Reads `variants` of a template of `count` robots, whose other keys `robot` has read. `subsystem_names`: those of
-/// all robots, which may be switched off.
+/// all robots, which may be switched off. `unknown`: is called for changes of what is none of them.
 std::vector<Variant> read_variants(const Node& variants, const MapReader& robot, int count,
-                                   const std::vector<std::string>& subsystem_names, Problems& problems);
+                                   const std::vector<std::string>& subsystem_names, const TakeUnknown& unknown,
+                                   Problems& problems);
 
 /// The subsystems of a template with the changes of some of its variants. `indices`: of these variants.
 Node merged(const Node& subsystems, const std::vector<Variant>& variants, const std::vector<std::size_t>& indices);

@@ -83,10 +83,14 @@ void RobotRecorder::set_raw(const KeyInfo& key, const void* data, std::uint32_t 
       case Call::visual_shapes:
         return out_.list(std::span(static_cast<const Shape*>(data), count));
       case Call::visual_materials:
+      case Call::model_subsystems:
         return out_.list(std::span(static_cast<const TextId*>(data), count));
+      case Call::model_subsystem_places:
+        return out_.list(std::span(static_cast<const std::int32_t*>(data), count));
       case Call::initial_joint_position:
       case Call::joint_drive_stiffness:
       case Call::joint_drive_damping:
+      case Call::joint_position_target:
         return out_.value(*static_cast<const double*>(data));
       default:
         return out_.value(*static_cast<const std::uint32_t*>(data));

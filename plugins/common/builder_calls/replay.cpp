@@ -88,11 +88,12 @@ class RobotReplay {
         return builder_.set_array<Shape>(keys::collision_shapes, shapes_in(calls, texts_));
       case Call::visual_shapes:
         return builder_.set_array<Shape>(keys::visual_shapes, shapes_in(calls, texts_));
-      case Call::visual_materials: {
-        std::vector<TextId> names = calls.list<TextId>();
-        for (TextId& name : names) name = texts_[name];
-        return builder_.set_array<TextId>(keys::visual_materials, names);
-      }
+      case Call::visual_materials:
+        return builder_.set_array<TextId>(keys::visual_materials, texts_in(calls));
+      case Call::model_subsystems:
+        return builder_.set_array<TextId>(keys::model_subsystems, texts_in(calls));
+      case Call::model_subsystem_places:
+        return builder_.set_array<std::int32_t>(keys::model_subsystem_places, calls.list<std::int32_t>());
       case Call::initial_joint_position:
         return builder_.set(keys::initial_joint_position, calls.value<double>());
       case Call::joint_drive:
@@ -101,6 +102,8 @@ class RobotReplay {
         return builder_.set(keys::joint_drive_stiffness, calls.value<double>());
       case Call::joint_drive_damping:
         return builder_.set(keys::joint_drive_damping, calls.value<double>());
+      case Call::joint_position_target:
+        return builder_.set(keys::joint_position_target, calls.value<double>());
       case Call::mjcf_file:
         return builder_.set(model_constants::mjcf_file, texts_[calls.value<TextId>()]);
       case Call::mjcf_in_world:
@@ -115,6 +118,12 @@ class RobotReplay {
   }
 
  private:
+  std::vector<TextId> texts_in(Reader& calls) const {
+    std::vector<TextId> texts = calls.list<TextId>();
+    for (TextId& text : texts) text = texts_[text];
+    return texts;
+  }
+
   void drive(std::uint32_t mode) {
     if (mode > std::uint32_t(DriveMode::passive)) fail();
     builder_.set(keys::joint_drive, mode);
