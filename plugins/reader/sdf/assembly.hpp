@@ -19,6 +19,7 @@ struct Body {
   Pose pose;                          ///< in the frame of the outermost model
   int parent_joint = -1;
   std::vector<int> child_joints;  ///< in the order of the file
+  bool is_caster_ball = false;    ///< rolls in a ball joint: it is fixed there, and slides without friction
   std::vector<int> attached;      ///< bodies without a joint that leads to them, fixed here
   FileLocation location;
 };

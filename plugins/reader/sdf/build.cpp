@@ -2,6 +2,7 @@
 #include "build.hpp"
 
 #include "bodies.hpp"
+#include "devices.hpp"
 #include "joints.hpp"
 #include "muro/ext/visual_materials.hpp"
 #include "muro/vocabulary.hpp"
@@ -20,8 +21,9 @@ class TreeBuilder {
         problems_(problems),
         joints_(assembly, sources, builder, problems) {}
 
-  void run() {
+  void run(const ::sdf::Model& model) {
     builder_.base(body(a_.base).name);
+    add_devices(a_, model, sources_, builder_, problems_);
     fill(a_.base);
     model_file::build_tree(builder_, children_of(a_.base), [this](const Child& child) { return add(child); });
     if (problems_.found_error()) return;
@@ -59,8 +61,10 @@ class TreeBuilder {
   void fill(int i) {
     const Body& b = body(i);
     if (!b.link) return;
-    const LinkBody solid = body_of(
+    LinkBody solid = body_of(
         *b.link, b.name, true, sources_, [this](std::string_view text) { return builder_.intern(text); }, problems_);
+    if (b.is_caster_ball)
+      for (Shape& s : solid.collisions) s.friction = 0;
     mass_ += solid.inertial.mass;
     if (solid.inertial.mass > 0) builder_.set(keys::inertial, solid.inertial);
     if (!solid.collisions.empty()) builder_.set_array<Shape>(keys::collision_shapes, solid.collisions);
@@ -79,8 +83,9 @@ class TreeBuilder {
 
 }  // namespace
 
-void build(Assembly& assembly, const SourceFiles& sources, RobotBuilder& builder, Problems& problems) {
-  TreeBuilder(assembly, sources, builder, problems).run();
+void build(Assembly& assembly, const ::sdf::Model& model, const SourceFiles& sources, RobotBuilder& builder,
+           Problems& problems) {
+  TreeBuilder(assembly, sources, builder, problems).run(model);
 }
 
 }  // namespace muro::sdf

@@ -89,7 +89,7 @@ void check(SourceFile& source, SourceFiles& sources, Problems& problems) { Check
 void Check::run() {
   section(*source_.document->root(), "sdf");
   missing_meshes_.report(problems_);
-  report_unsupported();
+  left_out_.report(problems_);
 }
 
 void Check::error(const FileLocation& at, const std::string& text) {
@@ -121,6 +121,8 @@ void Check::section(Element& e, std::string_view as) {
     } else if (!schema->repeatable && !seen.insert(name).second) {
       problems_.warning(location_of(*child), concat("a second <", name, "> in one <", e.Name(), "> is left out"));
       e.DeleteChild(child);
+    } else if (schema->type == ValueType::device) {
+      take_device(*child);
     } else if (schema->type == ValueType::section) {
       child_section(*child, schema->section);
     } else {
@@ -230,36 +232,15 @@ void Check::remove_unsupported(Element& e, const SchemaElement* schema, std::str
   const std::string name = e.Name();
   const bool foreign = name.find(':') != std::string::npos;  // a namespace of another program
   const auto* section = e.Parent()->ToElement();
-  Unsupported found{.severity = Severity::warning,
-                    .element = concat("<", name, "> in <", section ? section->Name() : "", ">"),
-                    .reason = "SDFormat has no such element there"};
-  if (schema) {
-    found.severity = schema->severity;
-    found.reason = schema->reason;
-  } else if (foreign) {
-    found.severity = Severity::note;
-    found.reason = "it is meant for another program";
-  } else {
-    found.reason += did_you_mean(name, supported_names(parent));
-  }
-  auto same = std::find_if(unsupported_.begin(), unsupported_.end(), [&](const Unsupported& u) {
-    return u.element == found.element && u.reason == found.reason;
-  });
-  if (same == unsupported_.end()) same = unsupported_.insert(unsupported_.end(), std::move(found));
-  same->locations.push_back(location_of(e));
+  const std::string element = concat("<", name, "> in <", section ? section->Name() : "", ">");
+  if (schema)
+    left_out_.add(schema->severity, element, std::string(schema->reason), location_of(e));
+  else if (foreign)
+    left_out_.add(Severity::note, element, "it is meant for another program", location_of(e));
+  else
+    left_out_.add(Severity::warning, element,
+                  "SDFormat has no such element there" + did_you_mean(name, supported_names(parent)), location_of(e));
   e.Parent()->DeleteChild(&e);
-}
-
-void Check::report_unsupported() {
-  constexpr std::size_t max = 8;
-  for (const auto& [severity, element, reason, locations] : unsupported_) {
-    std::string also;
-    for (std::size_t i = 1; i < std::min(locations.size(), max); ++i)
-      also += (i > 1 ? ", " : "") + concat(locations[i].line);
-    if (locations.size() > max) also += concat(" and ", locations.size() - max, " more");
-    if (!also.empty()) also = concat(locations.size() > 2 ? " (also in lines " : " (also in line ", also, ")");
-    problems_.report(severity, locations.front(), concat(element, " is left out", also, ": ", reason));
-  }
 }
 
 }  // namespace muro::sdf

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "plugins/common/model_file/left_out.hpp"
 #include "plugins/common/model_file/missing_meshes.hpp"
 #include "schema.hpp"
 #include "source_file.hpp"
@@ -27,7 +28,6 @@ class Check {
   void leaf(Element& e, const SchemaElement& schema);
   void numbers(Element& e, std::size_t count, bool infinite);
   void remove_unsupported(Element& e, const SchemaElement* schema, std::string_view parent);
-  void report_unsupported();
   FileLocation location_of(const Element& e) const { return source_.location_of(e); }
   /// Ends the reading, except within a model of a world: that model is left out, and the rest is read.
   void error(const FileLocation& at, const std::string& text);
@@ -62,18 +62,15 @@ class Check {
   // check_heightmap.cpp
   bool complete_heightmap(const Element& body, Element& heightmap);
   bool complete_textures(Element& heightmap);
+  // check_devices.cpp
+  void take_device(Element& e);
   bool complete_include(Element& include);
   void put_ground_plane(Element& include);
 
-  struct Unsupported {
-    Severity severity;
-    std::string element, reason;
-    std::vector<FileLocation> locations = {};
-  };
   SourceFile& source_;
   SourceFiles& sources_;
   Problems& problems_;
-  std::vector<Unsupported> unsupported_;
+  model_file::LeftOut left_out_;
   model_file::MissingMeshes missing_meshes_;
   std::string model_of_world_;  ///< that is being checked: "model `house`"; empty elsewhere
   bool is_model_bad_ = false;

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "joints.hpp"
 
+#include <sdf/Collision.hh>
+#include <sdf/Geometry.hh>
+#include <sdf/Sphere.hh>
+
+#include "plugins/common/model_file/joint_spring.hpp"
+
 #include <cmath>
 #include <sdf/JointAxis.hh>
 #include <utility>
@@ -19,6 +25,21 @@ double or_infinite(double limit) {
 }
 double positive_or_infinite(double limit) {
   return limit < 0 ? std::numeric_limits<double>::infinity() : or_infinite(limit);
+}
+
+/// Whether all that others touch of a body that carries nothing are spheres about a point of it (m, its frame).
+bool is_sphere_about(const Body& body, const Vec3& centre) {
+  if (!body.link || body.link->CollisionCount() == 0 || !body.child_joints.empty() || !body.attached.empty())
+    return false;
+  for (std::uint64_t i = 0; i < body.link->CollisionCount(); ++i) {
+    const ::sdf::Collision& collision = *body.link->CollisionByIndex(i);
+    const ::sdf::Sphere* sphere = collision.Geom() ? collision.Geom()->SphereShape() : nullptr;
+    ignition::math::Pose3d pose;
+    if (!sphere || !collision.SemanticPose().Resolve(pose).empty()) return false;
+    constexpr double tolerance = 0.01;  // by the radius
+    if ((pose_of(pose).position - centre).norm() > tolerance * sphere->Radius()) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -54,19 +75,32 @@ std::vector<Joints::SingleDofJoint> Joints::dofs_of(const Joint& joint) {
       followers_[dofs[1].name] = {joint.name, -1 / joint.definition->ThreadPitch(), 0};
       return dofs;
     }
-    case Type::BALL: {
-      std::vector<SingleDofJoint> dofs = {{name("_x"), 0, false, Vec3::UnitX()},
-                                          {name("_y"), 0, false, Vec3::UnitY()},
-                                          {name("_z"), 0, false, Vec3::UnitZ()}};
-      problems_.warning(joint.location,
-                        concat("joint ", quote(joint.name), " is a ball; it is made of the revolute joints ",
-                               quote(dofs[0].name), ", ", quote(dofs[1].name), " and ", quote(dofs[2].name),
-                               ", which cannot turn freely where the second is at 90 degrees"));
-      return dofs;
-    }
+    case Type::BALL:
+      return dofs_of_ball(joint);
     default:
       return {};
   }
+}
+
+/// Three revolute joints lock where the second is at 90 degrees, which the ball of a caster reaches as it rolls.
+std::vector<Joints::SingleDofJoint> Joints::dofs_of_ball(const Joint& joint) {
+  Body& child = a_.bodies[std::size_t(joint.child)];
+  if (is_sphere_about(child, child.pose.inverse() * joint.pose.position)) {
+    child.is_caster_ball = true;
+    problems_.warning(joint.location,
+                      concat("joint ", quote(joint.name), " is the ball joint of a caster; its sphere, ",
+                             quote(child.name), ", is fixed and slides without friction instead"));
+    return {};
+  }
+  const auto name = [&](const char* suffix) { return a_.unique(joint.name + suffix, "_joint"); };
+  std::vector<SingleDofJoint> dofs = {{name("_x"), 0, false, Vec3::UnitX()},
+                                      {name("_y"), 0, false, Vec3::UnitY()},
+                                      {name("_z"), 0, false, Vec3::UnitZ()}};
+  problems_.warning(joint.location,
+                    concat("joint ", quote(joint.name), " is a ball; it is made of the revolute joints ",
+                           quote(dofs[0].name), ", ", quote(dofs[1].name), " and ", quote(dofs[2].name),
+                           ", which cannot turn freely where the second is at 90 degrees"));
+  return dofs;
 }
 
 Vec3 Joints::axis_of(const Joint& joint, unsigned number) {
@@ -105,10 +139,6 @@ JointLimits Joints::limits_of(const Joint& joint, const SingleDofJoint& dof) {
   limits.friction = not_negative("friction", axis->Friction());
   if (const auto rotor = sources_.armatures.find(joint.location); rotor != sources_.armatures.end())
     limits.armature = rotor->second;
-  if (axis->SpringStiffness() != 0)
-    problems_.warning(joint.location,
-                      concat(owner, " has a spring of stiffness ", axis->SpringStiffness(),
-                             ", which is left out: joints have no springs; a controller may act as one"));
   return limits;
 }
 
@@ -117,11 +147,25 @@ void Joints::add_transform(const Pose& pose) {
   if (pose.orientation.vec().norm() > 1e-15) builder_.rotation(pose.orientation);
 }
 
+void Joints::add_spring(const Joint& joint, const SingleDofJoint& dof) {
+  const ::sdf::JointAxis* axis = joint.definition->Axis(dof.number);
+  const double stiffness = axis ? axis->SpringStiffness() : 0;
+  if (stiffness == 0) return;
+  const model_file::JointSpring spring{stiffness, axis->SpringReference()};
+  const std::string owner = concat("joint ", quote(dof.name));
+  if (stiffness < 0)
+    return problems_.warning(joint.location, concat(owner, " has a spring of stiffness ", stiffness,
+                                                    ", which is left out; it is 0 or more"));
+  problems_.note(joint.location, owner + spring.note());
+  spring.add_to(builder_);
+}
+
 /// `rotation`: of the present frame in that of the joint.
 void Joints::add_dof(const Joint& joint, const SingleDofJoint& dof, const Quat& rotation) {
   const Vec3 axis = rotation.conjugate() * dof.axis;
   const JointLimits limits = limits_of(joint, dof);
   dof.is_prismatic ? builder_.prismatic(dof.name, axis, limits) : builder_.revolute(dof.name, axis, limits);
+  add_spring(joint, dof);
   ranges_[dof.name] = {{limits.lower, limits.upper}, &joint};
   const auto follower = followers_.find(dof.name);
   if (follower == followers_.end()) return;

@@ -33,8 +33,10 @@ class Joints {
     double multiplier = 1, offset = 0;
   };
   std::vector<SingleDofJoint> dofs_of(const Joint& joint);
+  std::vector<SingleDofJoint> dofs_of_ball(const Joint& joint);
   Vec3 axis_of(const Joint& joint, unsigned number);
   JointLimits limits_of(const Joint& joint, const SingleDofJoint& dof);
+  void add_spring(const Joint& joint, const SingleDofJoint& dof);
   void add_dof(const Joint& joint, const SingleDofJoint& dof, const Quat& rotation);
 
   void find_mimics();

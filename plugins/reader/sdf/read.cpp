@@ -80,7 +80,7 @@ class WorldReader {
     if (assembly.bodies.empty()) return;
     make_tree(assembly, model, own);
     RobotBuilder& robot = builder_.model(unique(model.Name()), pose * assembly.bodies[std::size_t(assembly.base)].pose);
-    build(assembly, sources_, robot, own);
+    build(assembly, model, sources_, robot, own);
     for (const auto& [severity, text, line, column] : reports) robot.report(severity, text, line, column);
   }
 
@@ -168,7 +168,7 @@ void read_text(std::string bytes, const fs::path& folder, RobotBuilder& builder,
   }
   if (problems.found_error()) return;
   make_tree(assembly, *model, problems);
-  build(assembly, sources, builder, problems);
+  build(assembly, *model, sources, builder, problems);
 }
 
 void read_world_text(std::string bytes, const fs::path& folder, WorldBuilder& builder,

@@ -20,6 +20,9 @@ constexpr SchemaElement numbers(std::string_view parent, std::string_view name, 
 constexpr SchemaElement value(std::string_view parent, std::string_view name, ValueType type) {
   return {.parent = parent, .name = name, .type = type};
 }
+constexpr SchemaElement device(std::string_view parent, std::string_view name) {
+  return {.parent = parent, .name = name, .type = ValueType::device, .repeatable = true};
+}
 /// The robot or world differs without it: a warning.
 constexpr SchemaElement unsupported(std::string_view parent, std::string_view name, std::string_view reason,
                                     std::string_view supported_value = {}) {
@@ -41,7 +44,6 @@ constexpr SchemaElement irrelevant(std::string_view parent, std::string_view nam
 
 constexpr std::string_view plugin_text = "plugins of Gazebo are not run; a scenario names algorithms and controllers";
 constexpr std::string_view light_text = "there are no lights";
-constexpr std::string_view sensor_text = "sensors are subsystems of a robot in the scenario";
 constexpr std::string_view wind_text = "there is no wind";
 constexpr std::string_view sound_text = "there is no sound";
 constexpr std::string_view shown_text = "only plain colours are shown";
@@ -97,8 +99,8 @@ constexpr std::array elements = {
     value("model", "static", ValueType::flag),
     unsupported("model", "enable_wind", wind_text, "false"),
     unsupported("model", "gripper", "grasp by friction, or by a controller"),
-    unsupported("model", "plugin", plugin_text),
-    unsupported("model", "self_collide", "`self_collision` of a motion that has it decides", "false"),
+    device("model", "plugin"),
+    device("model", "self_collide"),
     irrelevant("model", "allow_auto_disable", "bodies do not fall asleep"),
 
     value("frame", "pose", ValueType::pose),
@@ -114,11 +116,11 @@ constexpr std::array elements = {
     unsupported("joint", "frame", frame_text),
     unsupported("link", "battery", "there are no batteries"),
     unsupported("link", "enable_wind", wind_text, "false"),
-    unsupported("link", "gravity", "gravity acts on all bodies", "true"),
+    device("link", "gravity"),
     unsupported("link", "kinematic",
                 "a motion without forces, such as motion.point, moves a robot by its commands alone", "false"),
-    unsupported("link", "self_collide", "`self_collision` of a motion that has it decides", "false"),
-    unsupported("link", "sensor", sensor_text),
+    device("link", "self_collide"),
+    device("link", "sensor"),
     unsupported("link", "velocity_decay", "damping of bodies is a parameter of the motion, where it has one"),
     irrelevant("link", "audio_sink", sound_text),
     irrelevant("link", "audio_source", sound_text),
@@ -272,7 +274,7 @@ constexpr std::array elements = {
     numbers("joint", "drake:rotor_inertia"),
     numbers("joint", "drake:gear_ratio"),
     numbers("joint", "screw_thread_pitch"),
-    unsupported("joint", "sensor", sensor_text),
+    device("joint", "sensor"),
     irrelevant("joint", "physics", engine_text),
     numbers("axis", "xyz", 3),
     value("axis", "use_parent_model_frame", ValueType::flag),

@@ -17,6 +17,7 @@ enum class ValueType {
   color,        ///< 3 or 4 numbers
   flag,         ///< true, false, 1, 0
   text,         ///< any text
+  device,       ///< a sensor, a plugin or a flag that becomes a subsystem of the robot
   unsupported,  ///< an element of SDFormat that is not read
 };
 

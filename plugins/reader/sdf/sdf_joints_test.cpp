@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "muro/toolkit/joint_drives.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "reading_testing.hpp"
 #include "tests/support/complaint.hpp"
@@ -228,13 +229,31 @@ TEST(SdfJoints, AJointOnTheWorldThatMovesHangsOnABodyForTheWorld) {
   EXPECT_TRUE(near(robot.pose("a"), {{0, 0, 2}, Quat::Identity()}));
 }
 
-TEST(SdfJoints, SpringsAreLeftOutWithAWarning) {
+TEST(SdfJoints, TheBallOfACasterIsFixedAndSlidesWithoutFriction) {
+  const std::string sphere =
+      "<collision name='c'><geometry><sphere><radius>0.02</radius></sphere></geometry></collision>";
+  const auto caster = [&](const std::string& shape, const std::string& at) {
+    return robot_of(model(link("a") + link("b", shape) + joint("j", "ball", "a", "b", "<pose>" + at + "</pose>")));
+  };
+  const Robot robot = caster(sphere, "0 0 0 0 0 0");
+  EXPECT_EQ(robot.joint("j_x"), nullptr);
+  ASSERT_EQ(robot.constants("b", keys::collision_shapes).size(), 1u);
+  EXPECT_EQ(robot.constants("b", keys::collision_shapes)[0].friction, 0);
+  ASSERT_EQ(robot.problems.size(), 1u);
+  EXPECT_NE(robot.problems[0].find("joint `j` is the ball joint of a caster"), std::string::npos);
+  EXPECT_NE(caster(sphere, "0 0 0.1 0 0 0").joint("j_y"), nullptr) << "the joint is beside the sphere";
+  EXPECT_NE(caster("", "0 0 0 0 0 0").joint("j_y"), nullptr) << "nothing rolls";
+}
+
+TEST(SdfJoints, SpringsArePositionDrivesTowardsTheirReference) {
   const Robot robot = two_links(
       "revolute",
       axis("0 0 1",
-           "<dynamics><spring_stiffness>7</spring_stiffness><spring_reference>0</spring_reference></dynamics>"));
-  ASSERT_EQ(robot.problems.size(), 1u);
-  EXPECT_NE(robot.problems[0].find("joint `j` has a spring of stiffness 7, which is left out"), std::string::npos);
+           "<dynamics><spring_stiffness>7</spring_stiffness><spring_reference>0.5</spring_reference></dynamics>"));
+  EXPECT_EQ(robot.constants("j", keys::joint_drive), std::vector<std::uint32_t>{std::uint32_t(DriveMode::position)});
+  EXPECT_EQ(robot.constants("j", keys::joint_drive_stiffness), std::vector<double>{7});
+  EXPECT_EQ(robot.constants("j", keys::joint_drive_damping), std::vector<double>{0});
+  EXPECT_EQ(robot.constants("j", keys::joint_position_target), std::vector<double>{0.5});
 }
 
 }  // namespace

@@ -233,8 +233,19 @@ TEST(SdfProblems, IncludesThatMultiplyAreStopped) {
       << robot.problems[0];
 }
 
+TEST(SdfProblems, WhatIsWrongInAnIncludedFileIsToldWithItsNameAndPlace) {
+  const test::ScratchFolder folder;
+  folder.file("arm.sdf", "<sdf version='1.9'><model name='arm'>\n" + link("upper") + link("lower") + "\n" +
+                             joint("elbow", "revolute", "upper", "lower", axis("0 1 0")) + "\n" +
+                             joint("second", "revolute", "upper", "lower", axis("0 1 0")) + "</model></sdf>");
+  const Robot robot = robot_of(model("<include><uri>arm.sdf</uri></include>"), folder.path(""));
+  ASSERT_EQ(robot.problems.size(), 1u);
+  EXPECT_TRUE(robot.problems[0].starts_with("warning 0:0 in arm.sdf:4:1: joint `arm.second` closes a chain"))
+      << robot.problems[0];
+}
+
 TEST(SdfProblems, MistakesOfAFileAreToldAllAtOnce) {
-  EXPECT_EQ(problems_of(link("a", "<pose>x</pose>") + "\n" + link("a", "<gravity>0</gravity>") + "\n" +
+  EXPECT_EQ(problems_of(link("a", "<pose>x</pose>") + "\n" + link("a", "<wings>0</wings>") + "\n" +
                         joint("j", "axis_joint", "a", "c"))
                 .size(),
             5u);

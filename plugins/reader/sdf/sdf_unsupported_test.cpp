@@ -146,11 +146,12 @@ TEST(SdfUnsupported, AttributesAreReportedUnlessForOtherPrograms) {
 
 TEST(SdfUnsupported, TheSameElementInManyLinesIsOneMessage) {
   std::string inside = "<link name='a'>" + inertial();
-  for (int i = 0; i < 10; ++i) inside += "\n<sensor name='s' type='ray'/>";
+  for (int i = 0; i < 10; ++i) inside += "\n<battery name='b'/>";
   EXPECT_EQ(
       robot_of(model(inside + "</link>")).problems,
-      Lines{"warning 4:1 <sensor> in <link> is left out (also in lines 5, 6, 7, 8, 9, 10, 11 and 2 more): sensors are "
-            "subsystems of a robot in the scenario"});
+      Lines{
+          "warning 4:1 <battery> in <link> is left out (also in lines 5, 6, 7, 8, 9, 10, 11 and 2 more): there are no "
+          "batteries"});
 }
 
 TEST(SdfUnsupported, ASecondElementOfAKindIsReported) {

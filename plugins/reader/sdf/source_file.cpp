@@ -227,14 +227,12 @@ const SourceFile* SourceFiles::include(const std::filesystem::path& path, std::s
 }
 
 FileLocation SourceFiles::location_of(const std::string& file, int line) const {
-  for (const auto& source : sources_) {
-    const bool here = source->memory ? source->memory->path() == file : source == sources_.front();
-    if (!here) continue;
-    const bool known = line > 0 && std::size_t(line) <= source->line_locations.size();
-    if (known || source->memory)
-      return {source->display_name, known ? source->line_locations[std::size_t(line) - 1] : Location{}};
-  }
-  return {};
+  const auto is_named = [&](const auto& source) { return source->memory && source->memory->path() == file; };
+  const auto included = std::find_if(sources_.begin(), sources_.end(), is_named);
+  const SourceFile& source = included != sources_.end() ? **included : *sources_.front();
+  if (line > 0 && std::size_t(line) <= source.line_locations.size())
+    return {source.display_name, source.line_locations[std::size_t(line) - 1]};
+  return {source.display_name, Location{}};
 }
 
 }  // namespace muro::sdf

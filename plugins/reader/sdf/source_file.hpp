@@ -6,12 +6,14 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "memory_file.hpp"
 #include "plugins/common/model_file/document.hpp"
 #include "plugins/common/model_file/mesh_path.hpp"
 #include "plugins/common/model_file/problems.hpp"
+#include "plugins/common/sdf_devices/subsystem.hpp"
 
 namespace muro::sdf {
 
@@ -81,6 +83,10 @@ class SourceFiles {
   /// kg m^2 or kg, by the location of their joint: what it feels of the rotor of its drive, which SDFormat has no word
   /// for.
   std::map<FileLocation, double> armatures;
+  /// By the location of the link, joint or model that has them.
+  std::map<FileLocation, std::vector<sdf_devices::Device>> devices;
+  std::set<FileLocation> weightless;      ///< links whose <gravity> is off
+  std::set<FileLocation> self_colliding;  ///< links and models
 
  private:
   bool parse(SourceFile& source, std::string bytes, bool included, std::string& reason);

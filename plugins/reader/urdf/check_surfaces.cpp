@@ -54,7 +54,8 @@ void take_contact(Element& contact, const std::string& owner, Surface& surface, 
   take(contact, "spinning_friction", resistance_range, owner, surface.spinning_resistance, problems);
 }
 
-/// <gazebo reference="link">
+}  // namespace
+
 void take_surface(Element& gazebo, const std::string& owner, Surface& surface, Problems& problems) {
   std::optional<double> mu1, mu2;
   take(gazebo, "mu1", friction_range, owner, mu1, problems);
@@ -66,23 +67,15 @@ void take_surface(Element& gazebo, const std::string& owner, Surface& surface, P
   take(gazebo, "restitution_coefficient", restitution_range, owner, surface.restitution, problems);
 }
 
-}  // namespace
-
 void take_surfaces(Element& robot, ModelInfo& model, Problems& problems) {
   for (Element* xml : children(robot, "link"))
     if (const auto link = model.links.find(xml->Attribute("name") ? xml->Attribute("name") : "");
         link != model.links.end())
       if (Element* contact = xml->FirstChildElement("contact"))
         take_contact(*contact, "link " + quote(link->first), link->second.surface, problems);
-  for (Element* gazebo : children(robot, "gazebo")) {
-    const char* reference = gazebo->Attribute("reference");
-    if (!reference) continue;
-    if (const auto link = model.links.find(reference); link != model.links.end())
-      take_surface(*gazebo, "link " + quote(link->first), link->second.surface, problems);
-    else if (model.joints.find(reference) == model.joints.end())
-      problems.warning(location_of(*gazebo),
-                       concat("<gazebo reference=", quote(reference), "> names no link or joint and is ignored"));
-  }
+}
+
+void remove_others(Element& robot) {
   constexpr std::array<std::string_view, 3> kept = {"link", "joint", "material"};
   for (tinyxml2::XMLNode* node = robot.FirstChild(); node;) {
     tinyxml2::XMLNode* next = node->NextSibling();

@@ -11,7 +11,10 @@
 
 #include "document.hpp"
 #include "muro/geometry.hpp"
+#include "muro/toolkit/limits.hpp"
+#include "plugins/common/model_file/joint_spring.hpp"
 #include "plugins/common/model_file/mesh_path.hpp"
+#include "plugins/common/sdf_devices/subsystem.hpp"
 
 namespace muro::urdf {
 
@@ -38,6 +41,7 @@ struct JointInfo {
   std::string type, parent, child;
   bool moves = false;                ///< revolute, continuous, prismatic: becomes a joint of the robot
   std::optional<double> armature{};  ///< kg m^2 or kg; URDF itself has no word for it
+  std::optional<model_file::JointSpring> spring{};
 };
 
 struct LinkInfo {
@@ -61,6 +65,7 @@ struct ModelInfo {
   std::map<std::string, JointInfo> joints;
   std::vector<std::string> joint_order;  ///< as in the file
   std::string root;
+  std::vector<sdf_devices::Subsystem> subsystems;  ///< sensors, drives and parameters of motions
 };
 
 /// Of Drake's <drake:rotor_inertia> and <drake:gear_ratio>: what the joint feels stays within the range of inertias.
@@ -79,8 +84,14 @@ Quat origin_rotation(const Element& owner);
 bool take_macros(Element& robot, Problems& problems);
 /// Reads the inertia of rotors from <drake:rotor_inertia> and <drake:gear_ratio> of actuators, as Drake does.
 void take_rotors(Element& robot, ModelInfo& model, Problems& problems);
-/// Reads friction and restitution and removes everything that is not link, joint or material.
+/// Reads friction and restitution from <contact> of links.
 void take_surfaces(Element& robot, ModelInfo& model, Problems& problems);
+/// Those from anywhere below <gazebo reference="link">.
+void take_surface(Element& gazebo, const std::string& owner, Surface& surface, Problems& problems);
+/// Reads all of <gazebo>: surfaces, gravity, springs, sensors, plugins. After take_surfaces, before which it goes.
+void take_gazebo(Element& robot, ModelInfo& model, Problems& problems);
+/// Removes everything that is not link, joint or material.
+void remove_others(Element& robot);
 void check_materials(Element& robot, Problems& problems);
 void check_links(Element& robot, ModelInfo& model, Problems& problems);
 void check_joints(Element& robot, ModelInfo& model, Problems& problems);

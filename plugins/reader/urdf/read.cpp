@@ -45,6 +45,8 @@ void read_text(std::string bytes, const std::filesystem::path& folder, RobotBuil
   check_joints(robot, info, problems);
   take_rotors(robot, info, problems);
   take_surfaces(robot, info, problems);
+  take_gazebo(robot, info, problems);
+  remove_others(robot);
   check_tree(robot, info, problems);
   check_mimics(info, problems);
   if (problems.found_error()) return;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "document.hpp"
+#include "muro/ext/model_subsystems.hpp"
 #include "muro/ext/visual_materials.hpp"
 #include "muro/vocabulary.hpp"
 #include "read.hpp"
@@ -32,6 +33,8 @@ class RecordingBuilder final : public RobotBuilder {
   std::map<std::string, std::vector<Shape>> collisions, visuals;
   std::map<std::string, std::vector<std::string>> materials;  ///< of visuals, by body
   std::vector<std::string> texts{""};
+  std::vector<std::string> subsystems;         ///< "laser: {use: laser.embree, ...}"
+  std::vector<std::int32_t> subsystem_places;  ///< line, column
 
   void base(std::string_view name) noexcept override { part("base", name, ""); }
   void fork() noexcept override { calls.emplace_back("fork"); }
@@ -74,6 +77,15 @@ class RecordingBuilder final : public RobotBuilder {
     } else if (key.name == keys::visual_materials.name) {
       for (std::uint32_t i = 0; i < count; ++i)
         materials[last_].push_back(texts[std::size_t(static_cast<const TextId*>(data)[i])]);
+    } else if (key.name == keys::model_subsystems.name) {
+      for (std::uint32_t i = 0; i < count; ++i)
+        subsystems.push_back(texts[std::size_t(static_cast<const TextId*>(data)[i])]);
+    } else if (key.name == keys::model_subsystem_places.name) {
+      subsystem_places.assign(static_cast<const std::int32_t*>(data), static_cast<const std::int32_t*>(data) + count);
+    } else if (key.type->name == ValueTraits<double>::name) {
+      calls.push_back(concat("set ", key.name, " ", *static_cast<const double*>(data)));
+    } else if (key.name == keys::joint_drive.name) {
+      calls.push_back(concat("set ", key.name, " ", *static_cast<const std::uint32_t*>(data)));
     } else {
       const auto* first = static_cast<const Shape*>(data);
       (key.name == keys::collision_shapes.name ? collisions : visuals)[last_].assign(first, first + count);
