@@ -47,6 +47,7 @@ class Extensions {
   OutputRegistry& outputs() { return outputs_; }
   InputLog& inputs() { return inputs_; }
   RunRequests& requests() { return requests_; }
+  LockstepClients& lockstep() { return lockstep_; }
   const ReportedNumbers& reported_numbers() const { return reported_numbers_; }
 
  private:

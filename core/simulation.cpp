@@ -26,6 +26,7 @@ Simulation::Simulation(Registry& registry, std::uint64_t seed)
       log_(std::make_unique<AlgorithmLog>(*extensions_)),
       levels_(std::make_unique<Levels>()) {
   scheduler_.set_seed(seed);
+  extensions_->lockstep().say = [this](const std::string& note) { log_->log(LogLevel::info, note); };
 }
 
 Simulation::~Simulation() = default;

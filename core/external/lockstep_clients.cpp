@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "core/external/lockstep_clients.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
+
+#include "core/error.hpp"
 
 namespace muro {
 
@@ -56,17 +61,31 @@ void LockstepClients::Stream::set_subscribed(bool subscribed) noexcept {
   is_subscribed = subscribed;
 }
 
-LockstepStream::Outcome LockstepClients::Stream::wait(std::int64_t) noexcept {
+std::string LockstepClients::Stream::why_it_waits(std::int64_t time) const {
+  return fmt::format(
+      "the run stands at {:g} s and waits in lockstep for {} on {}, which {}; it goes on when that "
+      "sends a message, or after {:g} s",
+      1e-9 * double(time), in_backquotes(client.name), in_backquotes(name),
+      is_expected ? "has not connected yet" : "has all its answers", timeout);
+}
+
+LockstepStream::Outcome LockstepClients::Stream::wait(std::int64_t time) noexcept {
   if (clients.is_replayed && clients.is_replayed()) return Outcome::go_on;
   using Clock = std::chrono::steady_clock;
   constexpr auto slice = std::chrono::milliseconds(20);  // between looks at `is_stopping`
-  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout));
+  const auto begin = Clock::now(),
+             end = begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout));
   std::unique_lock lock(client.mutex);
   while (client.is_its_turn()) {
     if (clients.is_stopping && clients.is_stopping()) return Outcome::stopping;
     if (Clock::now() >= end) {
       client.is_given_up = true;
       return Outcome::timed_out;
+    }
+    const std::chrono::duration<double> waited = Clock::now() - begin;
+    if (clients.say && waited.count() >= std::ldexp(clients.patience, int(client.notes))) {
+      ++client.notes;
+      clients.say(why_it_waits(time));
     }
     client.changed.wait_for(lock, slice);
   }

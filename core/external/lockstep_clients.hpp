@@ -20,6 +20,9 @@ class LockstepClients final : public Lockstep {
   std::function<bool()> is_stopping;
   /// Whether a recording stands in for all clients: nobody is waited for.
   std::function<bool()> is_replayed;
+  /// Tells the user for whom time waits, when it has done so for `patience`; twice as long before the next note.
+  std::function<void(const std::string& note)> say;
+  double patience = 3;  ///< s
 
  private:
   struct Stream;
@@ -32,6 +35,7 @@ class LockstepClients final : public Lockstep {
     std::condition_variable changed;
     std::deque<Stream> streams;
     bool is_given_up = false;  ///< it did not answer in time; until it says something
+    std::uint32_t notes = 0;   ///< how often a wait for it was told
   };
   struct Stream final : LockstepStream {
     Stream(LockstepClients& its_clients, Client& its_client, std::string_view its_name, double its_timeout)
@@ -41,6 +45,7 @@ class LockstepClients final : public Lockstep {
     void message_answered() noexcept override;
     void set_subscribed(bool subscribed) noexcept override;
     Outcome wait(std::int64_t time) noexcept override;
+    std::string why_it_waits(std::int64_t time) const;
 
     LockstepClients& clients;
     Client& client;

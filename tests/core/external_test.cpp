@@ -171,6 +171,24 @@ TEST_F(AClientInLockstep, IsWaitedForWhileItIsOwedNothing) {
   EXPECT_EQ(drive.wait(0), Outcome::timed_out) << "now it is its turn, on whatever stream";
 }
 
+TEST_F(AClientInLockstep, IsNamedWhereAWaitForItTakesLongAndMoreRarelyEachTime) {
+  std::vector<std::string> notes;
+  clients.say = [&](const std::string& note) { notes.push_back(note); };
+  clients.patience = 0.001;
+  laser.wait(2'500'000'000);
+  ASSERT_FALSE(notes.empty());
+  EXPECT_LE(notes.size(), 7U) << "at 1, 2, 4, 8, 16 and 32 ms of 50";
+  EXPECT_EQ(notes[0],
+            "the run stands at 2.5 s and waits in lockstep for `pilot` on `laser`, which has not connected "
+            "yet; it goes on when that sends a message, or after 0.05 s");
+  notes.clear();
+  connect_both();
+  clients.patience = 1e-9;
+  drive.wait(0);
+  ASSERT_FALSE(notes.empty());
+  EXPECT_NE(notes[0].find("for `pilot` on `drive`, which has all its answers"), std::string::npos) << notes[0];
+}
+
 TEST_F(AClientInLockstep, EndsTheWaitByAMessageFromAnotherThread) {
   connect_both();
   std::thread client([&] {
