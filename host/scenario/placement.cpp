@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "host/names.hpp"
 #include "muro/toolkit/random.hpp"
 #include "muro/toolkit/rotations.hpp"
@@ -51,7 +52,9 @@ class PoseSampler {
     double yaw;
   };
   Sample draw(int copy, int attempt) const {
-    const Random random(placement_.seed.value_or(1), std::uint64_t(copy), std::uint64_t(attempt));
+    const std::uint64_t seed = placement_.seed.value_or(1);
+    // Random takes the exclusive or of seed and key, by which copies of small seeds would only change places
+    const Random random(seed, hash_bytes(&copy, sizeof copy, seed), std::uint64_t(attempt));
     const auto end = std::lower_bound(ends_.begin(), std::prev(ends_.end()), random.uniform(0) * ends_.back());
     const Rectangle& r = area_[std::size_t(end - ends_.begin())];
     const Footprint f{r.x + (random.uniform(1) - 0.5) * r.width, r.y + (random.uniform(2) - 0.5) * r.depth, radius_};

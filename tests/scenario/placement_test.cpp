@@ -61,6 +61,17 @@ TEST_F(PlacementTest, EqualSeedsGiveEqualPlacesAndOthersDoNot) {
   EXPECT_NE(a[4].position, c[4].position);
 }
 
+TEST_F(PlacementTest, SmallSeedsShareNoPlaces) {
+  std::vector<Vec3> positions;
+  for (const std::uint64_t seed : {0, 1, 2, 3}) {
+    Occupancy empty;
+    random.seed = seed;
+    for (const Pose& pose : place(random, 8, body("rovers", 0, 0.1), places, empty)) positions.push_back(pose.position);
+  }
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) EXPECT_NE(positions[i], positions[k]) << i << " and " << k;
+}
+
 TEST_F(PlacementTest, AFullPlaceSaysHowManyFit) {
   random.location = {"a.yaml", 3, 5};
   try {
