@@ -115,6 +115,8 @@ struct Commands {
     add_scenario_options(command, run_options.scenario);
     command.add_option("--duration", run_options.duration, "Simulated seconds; default: as the scenario says")
         ->check(check_duration);
+    command.add_flag("--include-end", run_options.include_end,
+                     "Also run what is due at the end itself: recorders have a row for it");
     command.add_option("--speed", run_options.speed,
                        "max, real, or a factor of real time; default: max, with --view real");
     command.add_flag("--view", run_options.view, "Show the run in a window: view.window");

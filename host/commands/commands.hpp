@@ -21,6 +21,7 @@ struct ScenarioOptions {
 struct RunOptions {
   ScenarioOptions scenario;
   std::optional<double> duration;  ///< s
+  bool include_end = false;        ///< also what is due at the end
   std::string speed;               ///< "max", "real" or a factor; empty: max, or with a view real
   std::string threads;             ///< a number, "all", or empty: as the scenario says
   std::string report;              ///< file, or empty

@@ -47,8 +47,8 @@ class Progress {
   void show(double simulated, double wall) {
     if (!shown_ || wall - last_ < 0.2) return;
     last_ = wall;
-    fmt::print(stderr, "\r\033[K{:.1f} of {:g} s simulated, {:.2f} times real time", simulated, duration_,
-               wall > 0 ? simulated / wall : 0);
+    fmt::print(stderr, "\r\033[K{:.1f} of {:g} s simulated, {:.2f} times real time{}", simulated, duration_,
+               wall > 0 ? simulated / wall : 0, time_left(simulated, wall));
     std::fflush(stderr);
   }
   void close() const {
@@ -56,6 +56,16 @@ class Progress {
   }
 
  private:
+  /// At the mean speed so far, once that means something.
+  std::string time_left(double simulated, double wall) const {
+    if (wall < 1 || simulated <= 0 || !(duration_ > simulated)) return "";
+    const double left = wall * (duration_ - simulated) / simulated;
+    if (left < 60) return fmt::format(", {:.0f} s left", left);
+    const auto minutes = std::int64_t(std::min(left, 1e12) / 60);
+    if (minutes < 60) return fmt::format(", {} min {} s left", minutes, std::int64_t(left) % 60);
+    return fmt::format(", {} h {} min left", minutes / 60, minutes % 60);
+  }
+
   double duration_;
   bool shown_;
   double last_ = 0;
@@ -150,9 +160,9 @@ ScenarioOptions with_view(const RunOptions& options, const Registry& registry) {
   return scenario;
 }
 
-/// Runs to `end` (ns), to an interrupt or to a failure. The error goes to `result`, because recorders complete their
-/// files and the report is written however a run ends.
-void simulate(Simulation& simulation, std::int64_t end, Odometer& odometer, RunResult& result) {
+/// Runs to `end` (ns), with what is due at that time where `includes_end`, to an interrupt or to a failure. The error
+/// goes to `result`, because recorders complete their files and the report is written however a run ends.
+void simulate(Simulation& simulation, std::int64_t end, bool includes_end, Odometer& odometer, RunResult& result) {
   Progress progress(1e-9 * double(end));
   SlowRun slow(simulation);
   const auto start = std::chrono::steady_clock::now();
@@ -171,12 +181,12 @@ void simulate(Simulation& simulation, std::int64_t end, Odometer& odometer, RunR
   Failures failures(result.error);
   failures.guard([&] {
     simulation.set_sampling(Odometer::period, sample);
-    simulation.run_until(end, Interrupt::pending);
+    simulation.run_until(includes_end ? end + 1 : end, Interrupt::pending);
     sample();
   });
   simulation.set_sampling(0, {});
   result.wall = wall();
-  result.simulated = 1e-9 * double(simulation.now());
+  result.simulated = 1e-9 * double(std::min(simulation.now(), end));
   result.interrupted = Interrupt::pending();
   progress.close();
   failures.guard([&] { simulation.finish(); });
@@ -219,7 +229,7 @@ int run(const RunOptions& options) {
   Odometer odometer(simulation);
   RunResult result{built.scenario.name, built.scenario.seed, 0, 0, false, ""};
   const double duration = options.duration.value_or(built.scenario.duration);
-  simulate(simulation, std::llround(duration * 1e9), odometer, result);
+  simulate(simulation, std::llround(duration * 1e9), options.include_end, odometer, result);
   try {
     write_outputs(options, result, simulation, odometer);
   } catch (const std::system_error&) {

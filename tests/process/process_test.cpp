@@ -189,6 +189,21 @@ TEST(Isolation, LeavesNoProcessOfControlCodeWhenTheProgramIsKilled) {
   EXPECT_SAYS(result.output, "after 0\n") << "also of the one that hangs";
 }
 
+/// As FMI programs write the results of 0 to 1 s at 10 Hz: 11 rows.
+TEST(EndOfARun, HasARowWhereThatIsWanted) {
+  const auto rows = [](const std::string& options) {
+    const SteeredRun run("", options);
+    EXPECT_EQ(run.result.exit_code, 0) << run.result.output;
+    EXPECT_NE(run.result.output.find("s: 1 s simulated"), std::string::npos) << run.result.output;
+    return test::text_of(run.record);
+  };
+  const std::string without = rows(""), with = rows("--include-end");
+  EXPECT_TRUE(with.starts_with(without));
+  const std::string last = with.substr(without.size());
+  EXPECT_TRUE(last.starts_with("1,")) << last;
+  EXPECT_EQ(std::count(last.begin(), last.end(), '\n'), 1);
+}
+
 TEST(Interrupt, EndsARunWithItsRecordsWhole) {
   for (const char* deed : {"interrupts", "hangs_up"}) {
     const SteeredRun run(std::string("does=") + deed);
