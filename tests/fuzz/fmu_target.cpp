@@ -4,6 +4,7 @@
 
 #include "muro/algorithm.hpp"
 #include "plugins/controller/fmu/archive.hpp"
+#include "plugins/controller/fmu/input_table.hpp"
 #include "plugins/controller/fmu/mapping.hpp"
 #include "plugins/controller/fmu/model_description.hpp"
 #include "tests/fuzz/target.hpp"
@@ -32,9 +33,14 @@ void read_archive(Bytes bytes) {
   fmu::read_model_description(archive.description, "x.fmu");
 }
 
+const fmu::ModelDescription& variables() {
+  static const fmu::ModelDescription description = fmu::read_model_description(some_variables, "x.fmu");
+  return description;
+}
+
 /// "PARAMETER TEXT" in each line.
 void read_mappings(const std::string& text) {
-  static const fmu::ModelDescription description = fmu::read_model_description(some_variables, "x.fmu");
+  const fmu::ModelDescription& description = variables();
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     const std::size_t blank = std::min(line.find(' '), line.size());
@@ -49,12 +55,14 @@ void read_mappings(const std::string& text) {
 
 }  // namespace
 
-/// An archive, a model description, or lines of a scenario, by how the bytes begin.
+/// An archive, a table of inputs, a model description, or lines of a scenario, by how the bytes begin.
 void read_as_fmu(Bytes bytes) {
   const std::string text = text_of(bytes);
   try {
     if (text.starts_with("PK"))
       read_archive(bytes);
+    else if (text.starts_with("time") || text.starts_with("\"time"))
+      fmu::InputTable(file_with(bytes, "x.csv"), variables());
     else if (text.starts_with("inputs") || text.starts_with("outputs") || text.starts_with("parameters"))
       read_mappings(text);
     else

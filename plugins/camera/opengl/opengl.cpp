@@ -10,6 +10,7 @@
 #include "muro/plugin.hpp"
 #include "muro/toolkit/elementary.hpp"
 #include "muro/toolkit/mounting.hpp"
+#include "muro/toolkit/number_text.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/constant_twist/constant_twist.hpp"
 #include "plugins/common/render/color_renderer.hpp"
@@ -94,8 +95,7 @@ render::Camera read_camera(const Parameters& p) {
   camera.near = p.real("near");
   camera.far = p.real("far");
   if (camera.near >= camera.far)
-    throw Error("near (" + std::to_string(camera.near) + " m) must be less than far (" + std::to_string(camera.far) +
-                " m)");
+    throw Error("near (" + number_text(camera.near) + " m) must be less than far (" + number_text(camera.far) + " m)");
   return camera;
 }
 

@@ -11,9 +11,9 @@
 #include <set>
 
 #include "muro/algorithm.hpp"
+#include "muro/toolkit/number_text.hpp"
 #include "plugins/common/parser_process/limits.hpp"
 #include "plugins/common/text/lfs_pointer.hpp"
-#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/one_line.hpp"
 
 namespace muro::mesh {

@@ -7,9 +7,9 @@
 #include "joint_drive_target.hpp"
 #include "joint_target.hpp"
 #include "muro/toolkit/mass_properties.hpp"
+#include "muro/toolkit/number_text.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/position_drive/settled_modes.hpp"
-#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::multibody {

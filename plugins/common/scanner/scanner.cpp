@@ -6,9 +6,9 @@
 #include <string>
 
 #include "keys.hpp"
+#include "muro/toolkit/number_text.hpp"
 #include "plugins/common/constant_twist/constant_twist.hpp"
 #include "plugins/common/text/counted.hpp"
-#include "plugins/common/text/number.hpp"
 #include "scratch.hpp"
 
 namespace muro::scanner {

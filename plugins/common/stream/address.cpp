@@ -8,6 +8,7 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
+#include "muro/toolkit/number_text.hpp"
 #include "plugins/common/stream/baud_rates.hpp"
 #include "plugins/common/text/quote.hpp"
 
@@ -111,10 +112,10 @@ T within(std::string_view key, std::string_view value, T low, T high, const char
   const auto found = number<T>(value);
   if (!found || !(*found >= low && *found <= high)) {
     const auto words = [](T x) {
-      std::string text = std::to_string(x);
-      if (text.find('.') != text.npos) text.erase(text.find_last_not_of('0') + 1);
-      if (text.back() == '.') text.pop_back();
-      return text;
+      if constexpr (std::is_integral_v<T>)
+        return std::to_string(x);
+      else
+        return number_text(x);
     };
     refuse(key, value, "it must be a number from " + words(low) + " to " + words(high) + unit);
   }

@@ -5,6 +5,7 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/ext/report_entries.hpp"
+#include "muro/toolkit/number_text.hpp"
 #include "plugins/common/stream/live_stream.hpp"
 #include "plugins/common/stream/looked_at_stream.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -108,11 +109,8 @@ class Stream::Impl {
   }
 
   void time_out() const {
-    std::string seconds = std::to_string(address.timeout);
-    seconds.erase(seconds.find_last_not_of('0') + 1);
-    if (seconds.back() == '.') seconds.pop_back();
     const std::string what = "client " + quote(address.lockstep) + ", for which time waits, said nothing on stream " +
-                             quote(name) + " (" + address.text() + ") for " + seconds + " s";
+                             quote(name) + " (" + address.text() + ") for " + number_text(address.timeout) + " s";
     if (address.ends_on_timeout)
       throw Error(what + "; start it, raise `timeout`, or let time go on without it by `on_timeout: go_on`");
     if (inputs && !is_replayed()) inputs->not_repeatable(what);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "muro/toolkit/number_text.hpp"
 #include "parameters.hpp"
-#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::watch {

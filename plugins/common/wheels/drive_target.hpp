@@ -8,9 +8,9 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/robot.hpp"
+#include "muro/toolkit/number_text.hpp"
 #include "muro/vocabulary.hpp"
 #include "parameters.hpp"
-#include "plugins/common/text/number.hpp"
 
 namespace muro::wheels {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "muro/toolkit/number_text.hpp"
 #include "plugins/common/text/counted.hpp"
-#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "wheel_finder.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "muro/toolkit/number_text.hpp"
 #include "pair_contacts.hpp"
 #include "plugins/common/contact_geometry/contact_load.hpp"
 #include "plugins/common/lanes/vectors.hpp"
@@ -325,7 +326,7 @@ void PairContacts::tell_depth(std::uint32_t self, const Contact& contact, const 
   if (depth_is_told_.exchange(true)) return;
   const auto name = [&](ObjectId id) { return quote(bodies_.names[index_of(id)]); };
   host_.log(LogLevel::warning, "contact.penalty: " + name(contact.self) + " is pressed " +
-                                   std::to_string(1e3 * contact.depth) + " mm deep into " + name(contact.other) +
+                                   number_text(1e3 * contact.depth) + " mm deep into " + name(contact.other) +
                                    ": what holds them is hidden in their motions; move both by one motion, or what " +
                                    "is pressed by motion.simplified or motion.articulated (told once)");
 }

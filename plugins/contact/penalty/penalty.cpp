@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "muro/plugin.hpp"
+#include "muro/toolkit/number_text.hpp"
 #include "pair_contacts.hpp"
 #include "plugins/common/contact_geometry/carried_mass.hpp"
 #include "scenery_contacts.hpp"
@@ -109,9 +110,9 @@ class Penalty final : public Algorithm {
   }
   void report(const Stiffness& s) {
     if (std::exchange(reported_, true)) return;
-    host_->log(LogLevel::info, "contact.penalty: at a step of " + std::to_string(s.h) + " s, contacts have " +
-                                   std::to_string(s.omega / (2 * M_PI)) + " Hz instead of " +
-                                   std::to_string(omega_ / (2 * M_PI)) +
+    host_->log(LogLevel::info, "contact.penalty: at a step of " + number_text(s.h) + " s, contacts have " +
+                                   number_text(s.omega / (2 * M_PI)) + " Hz instead of " +
+                                   number_text(omega_ / (2 * M_PI)) +
                                    "; a higher rate of motion makes them as stiff as asked");
   }
 

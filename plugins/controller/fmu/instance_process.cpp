@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "component.hpp"
+#include "muro/toolkit/number_text.hpp"
 #include "plugins/common/child_process/as_child.hpp"
 #include "plugins/common/child_process/own_folder.hpp"
 #include "remote_protocol.hpp"
@@ -54,7 +55,7 @@ void InstanceProcess::receive(void* data, std::size_t size) {
   if (how == Transfer::whole) return;
   const Death death = reap();
   if (how == Transfer::late)
-    throw FailureFromOutside("it did not return within `timeout` of " + std::to_string(timeout_) + " s");
+    throw FailureFromOutside("it did not return within `timeout` of " + number_text(timeout_) + " s");
   if (death.may_be_from_outside) throw FailureFromOutside("its process " + death.text);
   throw Error("its process " + death.text);
 }

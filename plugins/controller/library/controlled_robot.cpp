@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "local_instance.hpp"
+#include "muro/toolkit/number_text.hpp"
 #include "muro/toolkit/random.hpp"
 #include "outcome_text.hpp"
 #include "plugins/common/radio/keys.hpp"
 #include "plugins/common/text/counted.hpp"
-#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/one_line.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "remote_instance.hpp"

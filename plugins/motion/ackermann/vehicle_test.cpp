@@ -210,7 +210,7 @@ TEST(Ackermann, AStartOutsideOfTheLimitsIsAnError) {
   std::vector<WheelSpec> wheels = bicycle(1);
   wheels[1].steering = {.lower = 0.1, .upper = 0.5};
   EXPECT_SAYS(complaint(vehicle_of(wheels)),
-              "joint `car/front_steering_joint` starts at 0.000000, outside of its limits");
+              "joint `car/front_steering_joint` starts at 0, outside of its limits");
 }
 
 TEST(Ackermann, ATargetThatIsNotFiniteIsAnError) {

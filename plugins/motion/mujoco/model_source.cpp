@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "muro/toolkit/number_text.hpp"
 #include "plugins/common/builder_calls/model_constants.hpp"
 #include "plugins/common/parser_process/ask.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -165,7 +166,7 @@ void ModelSource::check_gravity(const Connector& c, const mjModel& m) const {
   const Vec3 there = (m.opt.disableflags & mjDSBL_GRAVITY) != 0 ? Vec3(Vec3::Zero()) : vector_of(m.opt.gravity);
   if ((here - there).norm() < 1e-9) return;
   const auto text = [](const Vec3& v) {
-    return std::to_string(v.x()) + " " + std::to_string(v.y()) + " " + std::to_string(v.z());
+    return number_text(v.x()) + " " + number_text(v.y()) + " " + number_text(v.z());
   };
   c.host().log(LogLevel::warning, "motion.mujoco: the gravity of " + path_ + " is " + text(there) +
                                       ", that of the world " + text(here) +

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "muro/toolkit/number_text.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::mujoco {
@@ -153,8 +154,8 @@ void ModelWorld::find_kinematic_bodies() {
 
 void ModelWorld::set_time_step(double dt) {
   if (dt_ == 0 && std::abs(dt - source_.time_step()) > 1e-9 * dt)
-    host_.log(LogLevel::warning, "motion.mujoco: steps take " + std::to_string(dt) + " s, those of " + source_.path() +
-                                     " take " + std::to_string(source_.time_step()) + "; `rate: " +
+    host_.log(LogLevel::warning, "motion.mujoco: steps take " + number_text(dt) + " s, those of " + source_.path() +
+                                     " take " + number_text(source_.time_step()) + "; `rate: " +
                                      std::to_string(std::lround(1 / source_.time_step())) + "` has the file's");
   dt_ = dt;
   file_.model->opt.timestep = dt;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "force_driven_joints.hpp"
+#include "muro/toolkit/number_text.hpp"
 
 #include <algorithm>
 #include <string>
@@ -30,7 +31,7 @@ ForceDrivenJoints::ForceDrivenJoints(Connector& c, const RobotView& robot, std::
     const double armature = settings.armature + link.limits.armature, inertia = dof.inertia + armature;
     if (!(inertia > least_dof_inertia))
       throw Error("joint `" + std::string(c.object_name(link.joint_object)) + "` moves an inertia of " +
-                  std::to_string(inertia) +
+                  number_text(inertia) +
                   " kg m^2 or kg, so no force can move it; give the bodies behind it mass and inertia (`inertial`), or "
                   "set `armature`");
     Joint j;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "muro/toolkit/number_text.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::simplified {
@@ -20,8 +21,8 @@ void check_mass(const RobotView& robot, const Inertia& total) {
   const Eigen::SelfAdjointEigenSolver<Mat3> principal(total.tensor());
   if (!(principal.eigenvalues().minCoeff() > 1e-12 * principal.eigenvalues().maxCoeff()))
     throw Error(name + ": the inertia of all its bodies together has the principal moments " +
-                std::to_string(principal.eigenvalues()[0]) + ", " + std::to_string(principal.eigenvalues()[1]) + ", " +
-                std::to_string(principal.eigenvalues()[2]) +
+                number_text(principal.eigenvalues()[0]) + ", " + number_text(principal.eigenvalues()[1]) + ", " +
+                number_text(principal.eigenvalues()[2]) +
                 " kg m^2; all must be positive: give its bodies an inertia (`inertial`) that fits their mass");
 }
 

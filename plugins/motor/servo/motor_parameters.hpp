@@ -8,8 +8,8 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/motor_model.hpp"
+#include "muro/toolkit/number_text.hpp"
 #include "plugins/common/part_file/part_file.hpp"
-#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro {

@@ -4,8 +4,8 @@
 #include <initializer_list>
 
 #include "muro/algorithm.hpp"
+#include "muro/toolkit/number_text.hpp"
 #include "plugins/common/text/counted.hpp"
-#include "plugins/common/text/number.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A receiver of satellite navigation: place on the earth, and velocity.
 #include "muro/plugin.hpp"
+#include "muro/toolkit/number_text.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/common/geodetic/geodetic.hpp"
 #include "plugins/common/geodetic/keys.hpp"
 #include "plugins/common/internal_sensor/mounted.hpp"
 #include "plugins/common/internal_sensor/property_uses.hpp"
-#include "plugins/common/text/number.hpp"
 
 namespace {
 

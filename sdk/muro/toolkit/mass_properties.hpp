@@ -6,6 +6,7 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/link_pose.hpp"
+#include "muro/toolkit/number_text.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {
@@ -27,8 +28,8 @@ inline std::vector<double> initial_joint_positions(const Connector& connector, c
 /// A joint that starts outside of its limits is the user's mistake: throws Error. [setup]
 inline void check_start(const Connector& connector, ObjectId joint, const JointLimits& limits, double position) {
   if (position < limits.lower || position > limits.upper)
-    throw Error("joint `" + std::string(connector.object_name(joint)) + "` starts at " + std::to_string(position) +
-                ", outside of its limits " + std::to_string(limits.lower) + " to " + std::to_string(limits.upper) +
+    throw Error("joint `" + std::string(connector.object_name(joint)) + "` starts at " + number_text(position) +
+                ", outside of its limits " + number_text(limits.lower) + " to " + number_text(limits.upper) +
                 "; set `joint.position.initial` to a value between them");
 }
 
