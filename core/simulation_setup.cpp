@@ -39,6 +39,8 @@ void Simulation::build() {
   levels_->complete(world_);
   check_outputs();
   world_.store().check([&](std::string_view key) { return registry_.writers_of(key); });
+  for (const std::size_t i : in_order_of(order_of))
+    if (instances_[i]->setup().is_optional) connect_or_leave_out(*instances_[i], &Instance::start);
   schedule();
   initial_ = {world_.store().save(), scheduler_.state()};
   built_ = true;
@@ -153,6 +155,7 @@ void Simulation::start_all() {
   if (outputs_closed_) extensions_->inputs().show_all();
   for (const std::size_t i : in_order_of(order_of)) {
     const Kind kind = instances_[i]->description().kind;
+    if (instances_[i]->setup().is_optional) continue;  // it has started, or is left out
     if (!outputs_closed_ || (kind != Kind::recorder && kind != Kind::view)) instances_[i]->start();
   }
   extensions_->inputs().check_recording();

@@ -56,10 +56,10 @@ Flock fly(BuiltScenario& built, int seconds) {
 }
 
 TEST(Swarm, ComesToOneHeadingAndKeepsItsDistances) {
-  BuiltScenario built = swarm();
+  BuiltScenario built = swarm({"seed=3"});
   ASSERT_EQ(built.simulation->world().robots().size(), 300u);
   EXPECT_LT(look_at(built.simulation->world()).order, 0.2) << "headings are random";
-  const Flock flock = fly(built, 20);
+  const Flock flock = fly(built, 30);
   EXPECT_GT(flock.order, 0.8);
   EXPECT_NEAR(flock.mean_nearest, 0.3, 0.1);
 }

@@ -51,7 +51,7 @@ class ModelSubsystems {
       else
         add(s, own);
     std::erase_if(own, [](const Subsystem& s) { return s.switched_off || s.use.empty(); });
-    std::erase_if(own, [&](const Subsystem& s) { return is_error_without_sensor(s, own); });
+    remove_errors_without_sensor(own);
     return own;
   }
 
@@ -62,7 +62,7 @@ class ModelSubsystems {
     for (const auto& [name, value] : node.map)
       if (check_name(name, at, "a subsystem", problems)) {
         brought_.push_back(read_subsystem(name, value, owner, problems));
-        brought_.back().is_optional = true;
+        brought_.back().is_optional = brought_.back().from_model = true;
       }
   }
 
@@ -88,32 +88,44 @@ class ModelSubsystems {
     }
   }
 
-  /// What the scenario leaves open of it is that of the model.
+  /// Where the scenario only changes some keys, all others are those of the model. One with `use` replaces it.
   void complete(const Subsystem& brought, Subsystem& s) const {
-    if (s.use.empty()) s.use = brought.use;
-    if (family_of(s) != family_of(brought) || !algorithms_.is_installed(s.use)) return;
+    if (!s.use.empty() || !algorithms_.is_installed(brought.use)) return;
+    s.use = brought.use;
+    s.from_model = true;
     if (!s.rate && !s.on_demand) s.rate = brought.rate, s.on_demand = brought.on_demand;
     if (s.on.empty()) s.on = brought.on, s.on_location = brought.on_location;
     add_parameters(brought, s);
   }
 
-  /// A robot has one drive, and a reading one error.
+  static bool drives_wheels(const Subsystem& s) {
+    return family_of(s) == "drive" && s.use != "drive.gravity_compensation";
+  }
+
+  /// Whether two errors change the same reading; one that does not say which may change any.
+  static bool changes_same(const Subsystem& a, const Subsystem& b) {
+    const auto of_a = a.parameters.find("of"), of_b = b.parameters.find("of");
+    return of_a == a.parameters.end() || of_b == b.parameters.end() || of_a->second == of_b->second;
+  }
+
+  /// A robot has one drive, and a reading one error: those of the scenario.
   static bool is_replaced(const Subsystem& brought, const std::vector<Subsystem>& own) {
-    const bool is_drive = family_of(brought) == "drive", is_error = brought.use == "sensor.error";
     return std::any_of(own.begin(), own.end(), [&](const Subsystem& s) {
-      return (is_drive && family_of(s) == "drive") ||
-             (is_error && s.use == "sensor.error" && s.on == brought.on && s.location.file != brought.location.file);
+      if (s.from_model) return false;
+      return (drives_wheels(brought) && drives_wheels(s)) ||
+             (brought.use == "sensor.error" && s.use == brought.use && s.on == brought.on && changes_same(brought, s));
     });
   }
 
-  /// The sensor that it belonged to was switched off, or replaced.
-  bool is_error_without_sensor(const Subsystem& s, const std::vector<Subsystem>& own) const {
-    const auto is_it = [&](const Subsystem& o) { return o.name == s.name && o.location.file == s.location.file; };
-    if (s.use != "sensor.error" || std::none_of(brought_.begin(), brought_.end(), is_it)) return false;
-    const auto named = [&](const Subsystem& o) { return o.name == s.on; };
-    const auto sensor = std::find_if(own.begin(), own.end(), named);
-    const auto original = std::find_if(brought_.begin(), brought_.end(), named);
-    return sensor == own.end() || original == brought_.end() || family_of(*sensor) != family_of(*original);
+  /// Those of the model whose sensor was switched off, or replaced.
+  static void remove_errors_without_sensor(std::vector<Subsystem>& own) {
+    std::vector<std::string> brought;
+    for (const Subsystem& s : own)
+      if (s.from_model) brought.push_back(s.name);
+    std::erase_if(own, [&](const Subsystem& s) {
+      return s.from_model && s.use == "sensor.error" &&
+             std::find(brought.begin(), brought.end(), s.on) == brought.end();
+    });
   }
 
   Algorithms& algorithms_;

@@ -65,6 +65,7 @@ struct Subsystem {
   std::string use;             ///< empty: changes what the model brings under this name
   bool switched_off = false;   ///< what the model brings under this name is left out
   bool is_optional = false;    ///< the model brings it, and the scenario does not name it
+  bool from_model = false;     ///< the model brings it; the scenario may have changed it
   std::optional<double> rate;  ///< Hz; absent: the default of its kind
   bool on_demand = false;
   std::optional<double> phase;  ///< s; absent: 0, and for a sensor's error that of the sensor

@@ -87,13 +87,26 @@ TEST_F(ModelSubsystems, AreChangedByTheScenarioKeyByKey) {
   const BuiltScenario faster = built("    lidar: {rate: 50, rays: 3}\n");
   faster.simulation->run_for(0.021);
   EXPECT_NEAR(range(faster, 1), 4.5, 1e-6) << "the second of three rays";
-  EXPECT_EQ(uses(built("    lidar: {use: laser.raycast}\n")),
-            (Lines{"laser.raycast", "motion.articulated", "sensor.error"}));
+  EXPECT_EQ(uses(built("    lidar: {use: laser.raycast, rate: 5}\n")), (Lines{"laser.raycast", "motion.articulated"}))
+      << "another sensor, without the model's error";
   EXPECT_EQ(uses(built("    lidar_error: off\n")), (Lines{"laser.embree", "motion.articulated"}));
 }
 
 TEST_F(ModelSubsystems, AreSwitchedOffWithTheirErrors) {
   EXPECT_EQ(uses(built("    lidar: off\n")), Lines{"motion.articulated"});
+}
+
+TEST_F(ModelSubsystems, LeaveLinksWithoutWeightBesideADriveOfTheScenario) {
+  scratch_.file("light.urdf", std::string(model).replace(std::string(model).find("<gazebo reference=\"base\">"), 0,
+                                                         "<gazebo reference=\"base\"><gravity>0</gravity></gazebo>\n"));
+  const BuiltScenario b = build(
+      read_scenario(scratch_.file("light.yaml",
+                                  "robots: {cart: {model: light.urdf, at: {z: 1}, motion: {use: motion.articulated}, "
+                                  "lift: {use: drive.gravity_compensation, links: [mast]}}}\n"),
+                    {}),
+      test::plugins());
+  EXPECT_EQ(uses(b), (Lines{"laser.embree", "motion.articulated", "drive.gravity_compensation", "sensor.error",
+                            "drive.gravity_compensation"}));
 }
 
 TEST_F(ModelSubsystems, GiveWayToAnErrorOfTheScenario) {
@@ -137,7 +150,7 @@ TEST_F(ModelSubsystems, ThatCannotBeConnectedAreLeftOutWithAWarning) {
   b.simulation->run_for(0.05);
   const std::string told = testing::internal::GetCapturedStderr();
   EXPECT_NE(
-      told.find("driven.urdf:20:9: cart.drive (drive.differential) cannot be connected: joint `hinge` cannot drive "
+      told.find("driven.urdf:17:9: cart.drive (drive.differential) cannot be connected: joint `hinge` cannot drive "
                 "a wheel: "),
       std::string::npos)
       << told;

@@ -42,25 +42,28 @@ std::optional<Subsystem> read_camera(SensorReading& s, Element& e, const std::st
   const auto within = take_pose(camera);
   if (!within) return std::nullopt;
   Subsystem made = s.begin(name, "camera.opengl", *within);
+  double width = 320, height = 240, near = 0.1, far = 100;  // of camera.sdf
   if (Element* const image = camera.section("image")) {
     Fields fields(*image, camera.owner() + ", <image>", camera.messages());
-    for (const char* const side : {"width", "height"})
-      if (const auto pixels = fields.number(side, 1, 8192)) made.add(side, std::floor(*pixels));
+    width = fields.number("width", 1, 8192).value_or(width);
+    height = fields.number("height", 1, 8192).value_or(height);
     fields.skip({"format"}, "images are red, green and blue, 8 bits each");
     fields.list_unread("images have no counterpart of it");
   }
+  made.add("width", std::floor(width));
+  made.add("height", std::floor(height));
   if (const auto angle = camera.number("horizontal_fov", 0.001, 3.1)) made.add("horizontal_fov", *angle);
   if (Element* const clip = camera.section("clip")) {
     Fields fields(*clip, camera.owner() + ", <clip>", camera.messages());
-    const double near = fields.number("near", 0.0001, 1000).value_or(0.02);
-    const auto far = fields.number("far", 0.001, 1e6);
-    made.add("near", near);
-    if (far && *far > near) made.add("far", *far);
+    near = fields.number("near", 0.0001, 1000).value_or(near);
+    far = fields.number("far", 0.001, 1e6).value_or(far);
     fields.list_unread("SDFormat has no such element there");
   }
+  made.add("near", near);
+  made.add("far", std::max(far, 1.001 * near));
   add_images(made, s.type);
   add_lens(made, camera);
-  const Noise noise = take_noise(camera);
+  const Noise noise = take_noise(camera, "gaussian");
   if (noise.sigma > 0) made.add("noise", std::min(noise.sigma, 1.0));
   if (noise.mean != 0)
     camera.messages().left_out.add(Severity::warning, "<mean> of a camera's <noise>", "images have no bias",

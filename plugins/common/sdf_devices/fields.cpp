@@ -29,10 +29,14 @@ std::optional<std::vector<double>> Fields::numbers(const char* name, std::size_t
   std::string error;
   auto values = model_file::parse_numbers(text, count, error);
   const auto outside = [&](double v) { return v < low || v > high; };
-  if (values && std::any_of(values->begin(), values->end(), outside))
-    error = concat("is not from ", low, " to ", high);
-  else if (values)
+  if (values && std::none_of(values->begin(), values->end(), outside)) return values;
+  if (values) {
+    for (double& v : *values) v = std::clamp(v, low, high);
+    messages_.problems.warning(messages_.at(*e),
+                               concat(owner_, ": <", name, "> ", quote(text), " is not from ", low, " to ", high,
+                                      "; it is taken as ", quote(model_file::text_of(*values))));
     return values;
+  }
   messages_.problems.warning(messages_.at(*e),
                              concat(owner_, ": <", name, "> ", quote(text), " ", error, "; it is left out"));
   return std::nullopt;

@@ -24,16 +24,17 @@ struct Messages {
   FileLocation at(const Element& e) const { return {file, model_file::location_of(e)}; }
 };
 
-/// The children of an element, each of which is read once. A value that cannot be used is told and counts as missing.
+/// The children of an element, each of which is read once. A number outside of its range is told and counts as the
+/// nearest one, a value that is none as missing.
 class Fields {
  public:
   /// `owner` begins messages: "sensor `lidar`".
   Fields(Element& parent, std::string owner, Messages& messages)
       : parent_(parent), owner_(std::move(owner)), messages_(messages) {}
 
-  /// A number from `low` to `high`.
+  /// A number, brought into the range from `low` to `high`.
   std::optional<double> number(const char* name, double low, double high);
-  /// As many numbers, each from `low` to `high`.
+  /// As many numbers, each brought into that range.
   std::optional<std::vector<double>> numbers(const char* name, std::size_t count, double low, double high);
   /// The text without the blanks around it; empty where there is none.
   std::string text(const char* name);

@@ -45,7 +45,7 @@ Subsystems read_lidar(SensorReading& s) {
   Subsystem made = s.begin(s.name, "laser.embree");
   if (Element* const e = fields.section("scan")) {
     Fields scan(*e, s.fields.owner(), s.fields.messages());
-    const Sweep across = take_sweep(scan, "horizontal", most_rays, 4 * M_PI);
+    Sweep across = take_sweep(scan, "horizontal", most_rays, 4 * M_PI);
     const Sweep up = take_sweep(scan, "vertical", most_rows, M_PI / 2);
     scan.list_unread("SDFormat has no such element there");
     if (double(across.samples) * double(up.samples) > most_in_all) {
@@ -54,6 +54,7 @@ Subsystems read_lidar(SensorReading& s) {
                              " rays; at most ", most_in_all, " are possible"));
       return {};
     }
+    if (across.max_angle - across.min_angle > 2 * M_PI) across.max_angle = across.min_angle + 2 * M_PI;  // once round
     made.add("rays", double(across.samples));
     made.add("min_angle", across.min_angle);
     made.add("max_angle", across.max_angle);
@@ -61,12 +62,12 @@ Subsystems read_lidar(SensorReading& s) {
     if (up.min_angle != 0) made.add("min_elevation", up.min_angle);
     if (up.max_angle != 0) made.add("max_elevation", up.max_angle);
   }
-  Noise noise = take_noise(fields);
+  Noise noise = take_noise(fields, "gaussian");
   if (Element* const e = fields.section("range")) {
     Fields range(*e, s.fields.owner() + ", <range>", s.fields.messages());
     const double near = range.number("min", 0, farthest).value_or(0);
     const std::string far_text = e->FirstChildElement("max") ? text_of(*e->FirstChildElement("max")) : "";
-    const bool endless = far_text == "inf" || far_text == "+inf";
+    const bool endless = far_text.find("nf") != far_text.npos || far_text.find("NF") != far_text.npos;
     const double far = endless ? (range.text("max"), farthest) : range.number("max", 1e-6, farthest).value_or(10);
     if (near > 0) made.add("min_range", std::min(near, far));
     made.add("max_range", far);

@@ -7,7 +7,7 @@ namespace muro::sdf_devices {
 
 namespace {
 
-constexpr double most = 1e9;
+constexpr double most = 3e8;  // sums of three stay within what a sensor.error takes
 
 std::string_view type_attribute(const Element& e) {
   const char* const type = e.Attribute("type");
@@ -21,14 +21,20 @@ bool Noise::is_there() const {
          precision > 0;
 }
 
-Noise take_noise(Fields& fields) {
+Noise take_noise(Fields& fields, std::string_view default_type) {
   Noise noise;
   Element* const e = fields.section("noise");
   if (!e) return noise;
   Fields given(*e, fields.owner() + ", <noise>", fields.messages());
   std::string type = given.text("type");
   if (type.empty()) type = type_attribute(*e);
+  if (type.empty()) type = default_type;
   if (type == "none") return noise;
+  if (!type.starts_with("gaussian")) {
+    fields.messages().left_out.add(Severity::warning, concat("<noise type=", quote(type), ">"),
+                                   "noise is Gaussian, with a bias that may drift", fields.messages().at(*e));
+    return noise;
+  }
   noise.mean = given.number("mean", -most, most).value_or(0);
   noise.sigma = given.number("stddev", 0, most).value_or(0);
   noise.bias_mean = given.number("bias_mean", -most, most).value_or(0);

@@ -19,8 +19,8 @@ struct Noise {
   bool is_there() const;
 };
 
-/// That of a child <noise>, or none.
-Noise take_noise(Fields& fields);
+/// That of a child <noise>, or none. `default_type`: where it states none.
+Noise take_noise(Fields& fields, std::string_view default_type = "none");
 
 /// The errors of one reading, of each of its components, as a `sensor.error` on the sensor. `property`: what it
 /// changes. Nothing where no component has any.

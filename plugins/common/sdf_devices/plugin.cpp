@@ -95,9 +95,6 @@ std::optional<Subsystem> ackermann(PluginFields& fields, const FileLocation& at)
       drive.add("max_steering_angle", *angle);
       break;
     }
-  fields.skip({"front_left_joint", "front_right_joint", "rear_left_joint", "rear_right_joint", "steering_wheel_joint",
-               "wheel_base", "wheel_separation", "kingpin_width"},
-              "the vehicle's geometry is that of its joints");
   return drive;
 }
 

@@ -102,7 +102,8 @@ Subsystem SensorReading::begin(const std::string& called, std::string_view use, 
     made.add("rate", *rate);
   else
     made.add("rate", "on_demand");
-  if (use == "sensor.bumper") return made;  // it is all of its link
+  // one is all of its link; the other measures in the axes of its link (forcetorque.sdf, frame `child`)
+  if (use == "sensor.bumper" || use == "sensor.force_torque") return made;
   const DevicePose origin = pose * within;
   const Vec3 &p = origin.pose.position, &turn = origin.rpy;
   if (!p.isZero(0)) made.add("offset", std::vector<double>{p.x(), p.y(), p.z()});
@@ -110,7 +111,7 @@ Subsystem SensorReading::begin(const std::string& called, std::string_view use, 
   return made;
 }
 
-Device read_sensor(Element& sensor, const std::string& mounted_on, PartNames& parts, Messages& messages) {
+Device read_sensor(Element& sensor, const std::string& mounted_on, Messages& messages) {
   const std::string type = attribute_of(sensor, "type");
   const std::string name = attribute_of(sensor, "name");
   Fields fields(sensor, concat("sensor ", quote(name.empty() ? type : name)), messages);
@@ -124,14 +125,9 @@ Device read_sensor(Element& sensor, const std::string& mounted_on, PartNames& pa
   }
   const auto pose = take_pose(fields);
   if (!pose) return device;
-  SensorReading reading{fields,
-                        type,
-                        parts.unique(subsystem_name(name.empty() ? type : name)),
-                        mounted_on,
-                        *pose,
-                        std::nullopt,
-                        messages.at(sensor)};
-  if (const auto rate = fields.number("update_rate", 0, 1e9); rate && *rate >= 1e-6) reading.rate = rate;
+  SensorReading reading{
+      fields, type, subsystem_name(name.empty() ? type : name), mounted_on, *pose, std::nullopt, messages.at(sensor)};
+  if (const auto rate = fields.number("update_rate", 0, 1e4); rate && *rate >= 1e-6) reading.rate = rate;
   device.subsystems = kind->read(reading);
   fields.skip({"always_on", "enable_metrics", "frame_id", "gz_frame_id", "ignition_frame_id", "topic", "visualize"},
               "a scenario says who runs, shows and sends readings");

@@ -15,7 +15,8 @@ using Subsystems = std::vector<Subsystem>;
 
 /// A <sensor> of SDFormat on a link or a joint of a robot as subsystems of a scenario: ranges, rate, noise and pose are
 /// those of the file. What has no counterpart is told.
-Device read_sensor(Element& sensor, const std::string& mounted_on, PartNames& parts, Messages& messages);
+/// Its names are those of the file, see Device::place.
+Device read_sensor(Element& sensor, const std::string& mounted_on, Messages& messages);
 
 /// A <pose> of SDFormat.
 struct DevicePose {
@@ -29,7 +30,7 @@ struct DevicePose {
 struct SensorReading {
   Fields& fields;  ///< of <sensor>
   std::string type;
-  std::string name;  ///< of a subsystem, unlike all others of the robot
+  std::string name;  ///< as a subsystem
   std::string mounted_on;
   DevicePose pose;  ///< in the frame of its link
   std::optional<double> rate;

@@ -42,7 +42,10 @@ class Subsystem {
 
 /// The names of a robot's parts, and what devices call them.
 struct PartNames {
-  std::set<std::string> used = {};  ///< by links, joints and subsystems
+  /// By links, joints and subsystems; and by what else a robot has in a scenario.
+  std::set<std::string> used = {
+      "angular_velocity", "at",    "color",  "count", "drive",       "dynamics", "friction", "joints",   "mass",
+      "materials",        "model", "motion", "place", "restitution", "shape",    "texture",  "variants", "velocity"};
   /// What the robot calls a joint of the file that moves; nothing where there is none.
   std::function<std::optional<std::string>(const std::string&)> joint = {};
 

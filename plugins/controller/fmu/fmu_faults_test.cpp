@@ -274,7 +274,7 @@ TEST_P(FmuFault, ByTheClockOrAKillMakesTheRunNotRepeatable) {
   const std::string fmu = "robot `a`: x.fmu: ";
   EXPECT_EQ(reasons_of(exits, true),
             Texts{fmu + "its process was killed by SIGKILL, from outside or by the system for want of memory"});
-  EXPECT_EQ(reasons_of(hangs, false), Texts{fmu + "it did not return within `timeout` of 0.300000 s"});
+  EXPECT_EQ(reasons_of(hangs, false), Texts{fmu + "it did not return within `timeout` of 0.3 s"});
   EXPECT_EQ(reasons_of(exits, false), Texts{});
 }
 

@@ -64,7 +64,7 @@ class TreeBuilder {
     LinkBody solid = body_of(
         *b.link, b.name, true, sources_, [this](std::string_view text) { return builder_.intern(text); }, problems_);
     if (b.is_caster_ball)
-      for (Shape& s : solid.collisions) s.friction = 0;
+      for (Shape& s : solid.collisions) s.surface.friction = 0;
     mass_ += solid.inertial.mass;
     if (solid.inertial.mass > 0) builder_.set(keys::inertial, solid.inertial);
     if (!solid.collisions.empty()) builder_.set_array<Shape>(keys::collision_shapes, solid.collisions);

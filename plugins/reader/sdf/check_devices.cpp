@@ -26,12 +26,14 @@ void Check::take_device(Element& e) {
     if (!device.subsystems.empty()) sources_.devices[location_of(owner)].push_back(device);
   };
   if (name == "sensor") {
-    sdf_devices::PartNames names;
     if (e.Attribute("type", "contact") && !owner.FirstChildElement("collision"))
       left_out_.add(Severity::warning, "<sensor type=`contact`>", "its link has no shape that something could touch",
                     location_of(e));
     else
-      keep(read_sensor(e, attribute(owner, "name"), names, messages));
+      keep(read_sensor(e, attribute(owner, "name"), messages));
+  } else if (name == "plugin" && std::string_view(owner.Parent()->Value()) == "model") {
+    left_out_.add(Severity::warning, "<plugin> of a model within a model", "only the outer model has a drive",
+                  location_of(e));
   } else if (name == "plugin") {
     sdf_devices::PartNames names{.joint = [&](const std::string& joint) { return moving_joint(owner, joint); }};
     keep(read_plugin(e, names, messages));

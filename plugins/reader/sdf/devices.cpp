@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "devices.hpp"
 
+#include <utility>
+
 #include "muro/ext/model_subsystems.hpp"
 
 namespace muro::sdf {
@@ -11,14 +13,15 @@ class Devices {
  public:
   Devices(const Assembly& assembly, const SourceFiles& sources, Problems& problems)
       : assembly_(assembly), sources_(sources), problems_(problems) {
-    names_.used = assembly.names;
+    names_.used.insert(assembly.names.begin(), assembly.names.end());
   }
 
   void run(const ::sdf::Model& model) {
     for (const Body& body : assembly_.bodies)
       if (body.link) place(body.location, prefix_of(body.name, body.link->Name()), body.name);
     for (const Joint& joint : assembly_.joints)
-      if (!joint.left_out) place(joint.location, plain_name(joint.scope), joint.name);
+      if (!joint.left_out)
+        place(joint.location, plain_name(joint.scope), assembly_.bodies[std::size_t(joint.child)].name);
     add_drives(location_of(sources_, model.Element()));
     add_gravity_compensation();
     add_self_collision(location_of(sources_, model.Element()));
@@ -62,7 +65,12 @@ class Devices {
   void add_drives(const FileLocation& model) {
     const auto found = sources_.devices.find(model);
     if (found == sources_.devices.end()) return;
-    for (const sdf_devices::Device& device : found->second) add(device);
+    bool has_drive = false;
+    for (const sdf_devices::Device& device : found->second)
+      if (std::exchange(has_drive, true))
+        problems_.warning(device.location, device.owner + " is left out: the robot has a drive already");
+      else
+        add(device);
   }
 
   void add_gravity_compensation() {

@@ -5,6 +5,7 @@
 #include <sdf/Geometry.hh>
 #include <sdf/Sphere.hh>
 
+#include "muro/toolkit/limits.hpp"
 #include "plugins/common/model_file/joint_spring.hpp"
 
 #include <cmath>
@@ -153,9 +154,12 @@ void Joints::add_spring(const Joint& joint, const SingleDofJoint& dof) {
   if (stiffness == 0) return;
   const model_file::JointSpring spring{stiffness, axis->SpringReference()};
   const std::string owner = concat("joint ", quote(dof.name));
-  if (stiffness < 0)
-    return problems_.warning(joint.location, concat(owner, " has a spring of stiffness ", stiffness,
-                                                    ", which is left out; it is 0 or more"));
+  if (followers_.count(dof.name) != 0)
+    return problems_.warning(joint.location, owner + ": its spring is left out, as it follows a joint");
+  if (stiffness < 0 || stiffness > limits::joint_resistance || std::abs(spring.reference) > limits::joint_position)
+    return problems_.warning(joint.location,
+                             concat(owner, " has a spring of stiffness ", stiffness,
+                                    ", which is left out; it is from 0 to 1e12, its reference from -1e6 to 1e6"));
   problems_.note(joint.location, owner + spring.note());
   spring.add_to(builder_);
 }

@@ -238,7 +238,7 @@ TEST(SdfJoints, TheBallOfACasterIsFixedAndSlidesWithoutFriction) {
   const Robot robot = caster(sphere, "0 0 0 0 0 0");
   EXPECT_EQ(robot.joint("j_x"), nullptr);
   ASSERT_EQ(robot.constants("b", keys::collision_shapes).size(), 1u);
-  EXPECT_EQ(robot.constants("b", keys::collision_shapes)[0].friction, 0);
+  EXPECT_EQ(robot.constants("b", keys::collision_shapes)[0].surface.friction, 0);
   ASSERT_EQ(robot.problems.size(), 1u);
   EXPECT_NE(robot.problems[0].find("joint `j` is the ball joint of a caster"), std::string::npos);
   EXPECT_NE(caster(sphere, "0 0 0.1 0 0 0").joint("j_y"), nullptr) << "the joint is beside the sphere";

@@ -127,8 +127,13 @@ class TreeBuilder {
       default:
         break;
     }
-    if (info.moves && info.spring) info.spring->add_to(builder_);
-    if (joint->mimic) follow(*joint);
+    if (joint->mimic)
+      follow(*joint);
+    else if (info.moves && info.spring)
+      info.spring->add_to(builder_);
+    if (joint->mimic && info.spring)
+      problems_.warning(info.location,
+                        concat("joint ", quote(name), ": its spring is left out, as it follows a joint"));
     if (info.moves && info_.links.at(info.child).child_joints.empty() && !model_.getLink(info.child)->inertial)
       massless_.push_back(info.child);
     builder_.body(info.child);

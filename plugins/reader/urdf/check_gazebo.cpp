@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // <gazebo>: what URDF has no word for, in the terms of SDFormat (sdformat, parser_urdf).
+#include <utility>
+
 #include "model.hpp"
 #include "plugins/common/sdf_devices/plugin.hpp"
 #include "plugins/common/sdf_devices/sensor.hpp"
@@ -62,7 +64,7 @@ class Gazebo {
       place_ = place_.line > 0 ? place_ : location_of(gazebo);
     }
     take_self_collision(fields);
-    for (Element* plugin : fields.sections("plugin")) add(read_plugin(*plugin, parts_, messages_));
+    for (Element* plugin : fields.sections("plugin")) take_drive(*plugin);
     fields.list_unread("it has no counterpart in a robot");
   }
 
@@ -72,7 +74,8 @@ class Gazebo {
     Fields fields(gazebo, owner, messages_);
     for (const char* const taken : {"mu1", "mu2", "restitution_coefficient", "collision"}) fields.section(taken);
     const bool is_off = fields.flag("turnGravityOff").value_or(false);
-    if (is_off || !fields.flag("gravity").value_or(true)) {
+    const bool is_on = fields.flag("gravity").value_or(true);
+    if (is_off || !is_on) {
       weightless_.push_back(name);
       weightless_place_ = weightless_place_.line > 0 ? weightless_place_ : location_of(gazebo);
     }
@@ -101,7 +104,8 @@ class Gazebo {
       joint.spring = model_file::JointSpring{*stiffness, reference};
       problems_.note(location_of(gazebo), fields.owner() + joint.spring->note());
     }
-    take_sensors(fields, name_of_part(name), false);
+    // what passes through a joint is measured where its child hangs on it
+    take_sensors(fields, joint.child, false);
     // links behind fixed joints are bodies of their own
     for (const char* const kept : {"disableFixedJointLumping", "preserveFixedJoint"}) fields.section(kept);
     fields.skip({"provideFeedback"}, "a `sensor.force_torque` reads what passes through any joint");
@@ -117,7 +121,21 @@ class Gazebo {
         left_out_.add(Severity::warning, "<sensor type=`contact`>", "its link has no shape that something could touch",
                       location_of(*sensor));
       else
-        add(read_sensor(*sensor, part, parts_, messages_));
+        place(read_sensor(*sensor, part, messages_), part);
+  }
+
+  void place(sdf_devices::Device device, const std::string& part) {
+    device.place("", part, parts_);
+    add(device);
+  }
+
+  /// A robot has one.
+  void take_drive(Element& plugin) {
+    const sdf_devices::Device drive = read_plugin(plugin, parts_, messages_);
+    if (!drive.subsystems.empty() && std::exchange(has_drive_, true))
+      problems_.warning(location_of(plugin), drive.owner + " is left out: the robot has a drive already");
+    else
+      add(drive);
   }
 
   void add(const sdf_devices::Device& device) {
@@ -161,7 +179,7 @@ class Gazebo {
   sdf_devices::LeftOut left_out_;
   sdf_devices::Messages messages_{problems_, left_out_};
   sdf_devices::PartNames parts_;
-  bool is_static_ = false, self_collision_ = false;
+  bool is_static_ = false, self_collision_ = false, has_drive_ = false;
   Location place_;                       ///< of what says so
   std::vector<std::string> weightless_;  ///< links
   Location weightless_place_;

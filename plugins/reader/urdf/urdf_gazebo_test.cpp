@@ -2,6 +2,8 @@
 // <gazebo> blocks: in the terms of SDFormat's specification (sdformat.org/spec) and of sdformat's parser_urdf.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "recording_builder.hpp"
 
 namespace muro::urdf {
@@ -92,7 +94,7 @@ TEST(UrdfGazebo, AContactAGpsAndAForceTorqueSensorAreThoseOfMuro) {
   EXPECT_EQ(with("<gazebo reference='j'><sensor name='ft' type='force_torque'><update_rate>100</update_rate>"
                  "</sensor></gazebo>")
                 .subsystems,
-            Lines{"ft: {use: sensor.force_torque, on: j, rate: 100}"});
+            Lines{"ft: {use: sensor.force_torque, on: b, rate: 100}"});
 }
 
 TEST(UrdfGazebo, ASensorWithoutARateRunsOnDemandAndOneWithTheNameOfALinkHasAnother) {
@@ -169,14 +171,44 @@ TEST(UrdfGazebo, WhatHasNoCounterpartIsListedWithItsLines) {
              "that a scenario can have"}));
 }
 
-TEST(UrdfGazebo, ValuesThatCannotBeAreLeftOutAndTheSensorStays) {
+TEST(UrdfGazebo, ValuesThatCannotBeAreTheNearestOrLeftOutAndTheSensorStays) {
   const RecordingBuilder robot = with(
       "<gazebo reference='b'><sensor name='s' type='ray'><update_rate>-1</update_rate><ray><scan><horizontal>"
       "<samples>0</samples><min_angle>x</min_angle><max_angle>1e9</max_angle></horizontal></scan>"
       "<range><min>nan</min><max>inf</max></range></ray></sensor></gazebo>");
   EXPECT_EQ(robot.subsystems, Lines{"s: {use: laser.embree, on: b, rate: on_demand, rays: 1, min_angle: 0, max_angle: "
-                                    "0, max_range: 1e+06}"});
+                                    "6.283185307179586, max_range: 1e+06}"});
   EXPECT_EQ(robot.problems.size(), 6U) << "five values and what the sensor becomes";
+}
+
+TEST(UrdfGazebo, AScanOnceRoundMayBeALittleMoreAndACameraHasSdformatsDefaults) {
+  EXPECT_EQ(
+      subsystems_of_sensor("<sensor name='s' type='ray'><ray><scan><horizontal><samples>360</samples>"
+                           "<max_angle>6.28319</max_angle></horizontal></scan></ray></sensor>"),
+      Lines{"s: {use: laser.embree, on: b, rate: on_demand, rays: 360, min_angle: 0, max_angle: 6.283185307179586}"});
+  EXPECT_EQ(subsystems_of_sensor("<sensor name='c' type='camera'><camera/></sensor>"),
+            Lines{"c: {use: camera.opengl, on: b, rate: on_demand, width: 320, height: 240, near: 0.1, far: 100}"});
+}
+
+TEST(UrdfGazebo, ARobotHasOneDriveAndNamesThatNothingElseHas) {
+  const std::string drive =
+      "<plugin filename='libgazebo_ros_diff_drive.so'><leftJoint>j</leftJoint>"
+      "<rightJoint>j</rightJoint></plugin>";
+  const RecordingBuilder robot = with("<gazebo>" + drive + "\n" + drive + "</gazebo>\n<gazebo reference='b'>" +
+                                      "<gravity>0</gravity><sensor name='drive' type='imu'/></gazebo>");
+  EXPECT_EQ(robot.subsystems, (Lines{"drive: {use: drive.differential, left: [j], right: [j]}",
+                                     "drive_sensor: {use: sensor.imu, on: b, rate: on_demand}",
+                                     "gravity_compensation: {use: drive.gravity_compensation, links: [b]}"}));
+  EXPECT_EQ(robot.problems[1],
+            "warning 3:1 plugin `libgazebo_ros_diff_drive.so` is left out: the robot has a drive already");
+}
+
+TEST(UrdfGazebo, ASpringOfAJointThatFollowsIsLeftOut) {
+  const RecordingBuilder robot = recorded(
+      concat("<robot name='r'>", body_a, link_b, "<link name='c'/><joint name='j' type='continuous'><parent link='a'/>",
+             "<child link='b'/></joint><joint name='k' type='continuous'><parent link='a'/><child link='c'/>",
+             "<mimic joint='j'/></joint><gazebo reference='k'><springStiffness>2</springStiffness></gazebo></robot>"));
+  EXPECT_EQ(std::count(robot.calls.begin(), robot.calls.end(), "set joint.drive 1"), 0);
 }
 
 TEST(UrdfGazebo, AScanOfTooManyRaysAndAPoseInAnotherFrameAreLeftOut) {
