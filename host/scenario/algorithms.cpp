@@ -159,8 +159,9 @@ void Algorithms::add_defaults() {
     readers_.emplace(keys::external_wrench.name, worlds_.begin()->substr(0, worlds_.begin()->find('/')));
   const auto is_written = [&](const char* property) {
     return std::any_of(used_.begin(), used_.end(), [&](const std::string& id) {
-      const auto& names = registry_.find(id).writes;
-      return std::find(names.begin(), names.end(), property) != names.end();
+      const CatalogEntry& entry = registry_.find(id);
+      if (entry.kind == name_of(Kind::drive)) return false;  // it serves robots, and no scene
+      return std::find(entry.writes.begin(), entry.writes.end(), property) != entry.writes.end();
     });
   };
   for (const DefaultAlgorithm& d : default_algorithms) {

@@ -191,11 +191,18 @@ TEST(Isolation, LeavesNoProcessOfControlCodeWhenTheProgramIsKilled) {
 
 /// As FMI programs write the results of 0 to 1 s at 10 Hz: 11 rows.
 TEST(EndOfARun, HasARowWhereThatIsWanted) {
-  const auto rows = [](const std::string& options) {
-    const SteeredRun run("", options);
-    EXPECT_EQ(run.result.exit_code, 0) << run.result.output;
-    EXPECT_NE(run.result.output.find("s: 1 s simulated"), std::string::npos) << run.result.output;
-    return test::text_of(run.record);
+  const test::ScratchFolder scratch;
+  const std::string record = scratch.path("record.csv");
+  const std::string scenario = scratch.file(
+      "s.yaml",
+      "robots:\n  ball: {shape: {sphere: 0.1}, mass: 1, motion: {use: motion.point}}\nalgorithms:\n  log: {use: "
+      "recorder.csv, rate: 10, file: " +
+          record + ", properties: [\"ball/body:pose\"]}\n");
+  const auto rows = [&](const std::string& options) {
+    const auto result = run_command(program + " run " + scenario + " --duration 1 " + options);
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_SAYS(result.output, "s: 1 s simulated");
+    return test::text_of(record);
   };
   const std::string without = rows(""), with = rows("--include-end");
   EXPECT_TRUE(with.starts_with(without));

@@ -109,6 +109,17 @@ TEST_F(ModelSubsystems, LeaveLinksWithoutWeightBesideADriveOfTheScenario) {
                             "drive.gravity_compensation"}));
 }
 
+/// The default contact law is there although a drive adds to `wrench.external`, too.
+TEST_F(ModelSubsystems, LinksWithoutWeightStandOnTheGroundLikeOthers) {
+  const std::string scene =
+      "world: {objects: {ground: {shape: plane}}}\nrobots: {box: {shape: {box: [0.2, 0.2, 0.2]}, mass: 2, at: {z: "
+      "0.1}, "
+      "motion: {use: motion.simplified}, lift: {use: drive.gravity_compensation, fraction: 0.5}}}\n";
+  const BuiltScenario b = build(read_scenario(scratch_.file("box.yaml", scene), {}), test::plugins());
+  b.simulation->run_for(1);
+  EXPECT_NEAR(b.simulation->world().value("box/body", keys::pose).position.z(), 0.1, 1e-3);
+}
+
 TEST_F(ModelSubsystems, GiveWayToAnErrorOfTheScenario) {
   EXPECT_EQ(uses(built("    mine: {use: sensor.error, on: lidar, sigma: 0.1}\n")),
             (Lines{"laser.embree", "motion.articulated", "sensor.error"}));
