@@ -195,8 +195,7 @@ TEST(ACamera, TellsWhatIsWrong) {
     }
     return {};
   };
-  EXPECT_NE(complaint({{"near", 2.0}, {"far", 1.0}}).find("near (2 m) must be less than far"),
-            std::string::npos);
+  EXPECT_NE(complaint({{"near", 2.0}, {"far", 1.0}}).find("near (2 m) must be less than far"), std::string::npos);
   EXPECT_NE(complaint({{"intrinsics", std::vector<double>{1, 2, 3}}}).find("four numbers"), std::string::npos);
 }
 

@@ -209,8 +209,7 @@ TEST(Ackermann, WrongNamesAreErrorsWithTheRightOnes) {
 TEST(Ackermann, AStartOutsideOfTheLimitsIsAnError) {
   std::vector<WheelSpec> wheels = bicycle(1);
   wheels[1].steering = {.lower = 0.1, .upper = 0.5};
-  EXPECT_SAYS(complaint(vehicle_of(wheels)),
-              "joint `car/front_steering_joint` starts at 0, outside of its limits");
+  EXPECT_SAYS(complaint(vehicle_of(wheels)), "joint `car/front_steering_joint` starts at 0, outside of its limits");
 }
 
 TEST(Ackermann, ATargetThatIsNotFiniteIsAnError) {

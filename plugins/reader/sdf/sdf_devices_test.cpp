@@ -27,7 +27,7 @@ TEST(SdfDevices, ASensorIsASubsystemOfTheRobotWithItsErrors) {
   EXPECT_TRUE(robot.problems[0].starts_with("note 4:1 sensor `scan` becomes `scan: {use: laser.embree"));
 }
 
-TEST(SdfDevices, OfAnIncludedModelHaveItsNameBeforeTheirsAndItsFileInMessages) {
+TEST(SdfDevices, OfAnIncludedModelHaveItsNameBeforeTheirs) {
   const test::ScratchFolder folder;
   folder.file("mast.sdf", "<sdf version='1.9'><model name='mast'><link name='top'>" + inertial() + "\n" + lidar +
                               "</link></model></sdf>");

@@ -97,7 +97,7 @@ TEST(UrdfGazebo, AContactAGpsAndAForceTorqueSensorAreThoseOfMuro) {
             Lines{"ft: {use: sensor.force_torque, on: b, rate: 100}"});
 }
 
-TEST(UrdfGazebo, ASensorWithoutARateRunsOnDemandAndOneWithTheNameOfALinkHasAnother) {
+TEST(UrdfGazebo, ASensorRunsOnDemandAndHasANameOfItsOwn) {
   EXPECT_EQ(subsystems_of_sensor("<sensor name='b' type='imu'/>"),
             Lines{"b_sensor: {use: sensor.imu, on: b, rate: on_demand}"});
 }
@@ -181,7 +181,7 @@ TEST(UrdfGazebo, ValuesThatCannotBeAreTheNearestOrLeftOutAndTheSensorStays) {
   EXPECT_EQ(robot.problems.size(), 6U) << "five values and what the sensor becomes";
 }
 
-TEST(UrdfGazebo, AScanOnceRoundMayBeALittleMoreAndACameraHasSdformatsDefaults) {
+TEST(UrdfGazebo, AScanEndsOnceRoundAndCamerasHaveDefaults) {
   EXPECT_EQ(
       subsystems_of_sensor("<sensor name='s' type='ray'><ray><scan><horizontal><samples>360</samples>"
                            "<max_angle>6.28319</max_angle></horizontal></scan></ray></sensor>"),
