@@ -21,6 +21,15 @@ bool Noise::is_there() const {
          precision > 0;
 }
 
+Noise gaussian_noise(Fields& fields) {
+  Noise noise;
+  noise.mean = fields.number("mean", -most, most).value_or(0);
+  noise.sigma = fields.number("stddev", 0, most).value_or(0);
+  noise.bias_mean = fields.number("bias_mean", -most, most).value_or(0);
+  noise.bias_sigma = fields.number("bias_stddev", 0, most).value_or(0);
+  return noise;
+}
+
 Noise take_noise(Fields& fields, std::string_view default_type) {
   Noise noise;
   Element* const e = fields.section("noise");
@@ -35,10 +44,7 @@ Noise take_noise(Fields& fields, std::string_view default_type) {
                                    "noise is Gaussian, with a bias that may drift", fields.messages().at(*e));
     return noise;
   }
-  noise.mean = given.number("mean", -most, most).value_or(0);
-  noise.sigma = given.number("stddev", 0, most).value_or(0);
-  noise.bias_mean = given.number("bias_mean", -most, most).value_or(0);
-  noise.bias_sigma = given.number("bias_stddev", 0, most).value_or(0);
+  noise = gaussian_noise(given);
   noise.drift_density = given.number("dynamic_bias_stddev", 0, most).value_or(0);
   noise.drift_time = given.number("dynamic_bias_correlation_time", 0, most).value_or(0);
   noise.precision = given.number("precision", 0, most).value_or(0);

@@ -19,6 +19,9 @@ struct Noise {
   bool is_there() const;
 };
 
+/// From <mean>, <stddev>, <bias_mean> and <bias_stddev> of an element.
+Noise gaussian_noise(Fields& fields);
+
 /// That of a child <noise>, or none. `default_type`: where it states none.
 Noise take_noise(Fields& fields, std::string_view default_type = "none");
 

@@ -33,12 +33,7 @@ void take_old_noise(Fields& imu, std::vector<Noise>& rates, std::vector<Noise>& 
   for (auto [name, axes] : {std::pair("rate", &rates), std::pair("accel", &accelerations)})
     if (Element* const given = noise.section(name)) {
       Fields fields(*given, noise.owner(), imu.messages());
-      Noise n;
-      n.mean = fields.number("mean", -1e9, 1e9).value_or(0);
-      n.sigma = fields.number("stddev", 0, 1e9).value_or(0);
-      n.bias_mean = fields.number("bias_mean", -1e9, 1e9).value_or(0);
-      n.bias_sigma = fields.number("bias_stddev", 0, 1e9).value_or(0);
-      axes->assign(3, n);
+      axes->assign(3, gaussian_noise(fields));
     }
   noise.list_unread("SDFormat has no such element there");
 }

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <map>
 
+#include "muro/ext/model_subsystems.hpp"
 #include "plugins/common/model_file/message.hpp"
 
 namespace muro::sdf_devices {
@@ -87,6 +88,19 @@ void Device::tell(model_file::Problems& problems) const {
   problems.note(location, owner + " becomes " + texts + "; the scenario goes before, and `" +
                               subsystems.front().name() + ": off` leaves it out" +
                               (unused.empty() ? "" : ". Not used: " + unused));
+}
+
+void give(const std::vector<Subsystem>& subsystems, RobotBuilder& builder) {
+  std::vector<TextId> texts;
+  std::vector<std::int32_t> places;
+  for (const Subsystem& s : subsystems) {
+    texts.push_back(builder.intern(s.text()));
+    const bool is_here = s.location().file.empty();
+    places.insert(places.end(), {is_here ? s.location().line : 0, is_here ? s.location().column : 0});
+  }
+  if (texts.empty()) return;
+  builder.set_array<TextId>(keys::model_subsystems, texts);
+  builder.set_array<std::int32_t>(keys::model_subsystem_places, places);
 }
 
 }  // namespace muro::sdf_devices

@@ -69,4 +69,7 @@ struct Device {
   void tell(model_file::Problems& problems) const;
 };
 
+/// Gives them to the base of a robot, the last part of the builder, as what its model brings.
+void give(const std::vector<Subsystem>& subsystems, RobotBuilder& builder);
+
 }  // namespace muro::sdf_devices

@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "muro/ext/model_subsystems.hpp"
-
 namespace muro::sdf {
 
 namespace {
@@ -27,18 +25,7 @@ class Devices {
     add_self_collision(location_of(sources_, model.Element()));
   }
 
-  void give_to(RobotBuilder& builder) const {
-    std::vector<TextId> texts;
-    std::vector<std::int32_t> places;
-    for (const sdf_devices::Subsystem& s : subsystems_) {
-      texts.push_back(builder.intern(s.text()));
-      const bool is_here = s.location().file.empty();
-      places.insert(places.end(), {is_here ? s.location().line : 0, is_here ? s.location().column : 0});
-    }
-    if (texts.empty()) return;
-    builder.set_array<TextId>(keys::model_subsystems, texts);
-    builder.set_array<std::int32_t>(keys::model_subsystem_places, places);
-  }
+  const std::vector<sdf_devices::Subsystem>& subsystems() const { return subsystems_; }
 
  private:
   /// "arm." of arm.hand.
@@ -112,7 +99,7 @@ void add_devices(const Assembly& assembly, const ::sdf::Model& model, const Sour
                  Problems& problems) {
   Devices devices(assembly, sources, problems);
   devices.run(model);
-  devices.give_to(builder);
+  sdf_devices::give(devices.subsystems(), builder);
 }
 
 }  // namespace muro::sdf

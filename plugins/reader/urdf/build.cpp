@@ -5,7 +5,6 @@
 #include <set>
 
 #include "bodies.hpp"
-#include "muro/ext/model_subsystems.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/model_file/build_tree.hpp"
 
@@ -47,7 +46,7 @@ class TreeBuilder {
 
   void run() {
     builder_.base(info_.root);
-    add_subsystems();
+    sdf_devices::give(info_.subsystems, builder_);
     fill(info_.root);
     model_file::build_tree(builder_, info_.links.at(info_.root).child_joints, [this](const std::string& joint) {
       add_joint(joint);
@@ -62,18 +61,6 @@ class TreeBuilder {
   }
 
  private:
-  void add_subsystems() {
-    std::vector<TextId> texts;
-    std::vector<std::int32_t> places;
-    for (const sdf_devices::Subsystem& s : info_.subsystems) {
-      texts.push_back(builder_.intern(s.text()));
-      places.insert(places.end(), {s.location().line, s.location().column});
-    }
-    if (texts.empty()) return;
-    builder_.set_array<TextId>(keys::model_subsystems, texts);
-    builder_.set_array<std::int32_t>(keys::model_subsystem_places, places);
-  }
-
   /// `name`, followed by `suffix` as often as it takes to be unique.
   std::string unique(std::string name, std::string_view suffix) {
     while (!used_.insert(name).second) name += suffix;
