@@ -49,7 +49,15 @@ std::string plugin_of(const std::string& object, const std::string& plugin_folde
   return name.substr(0, name.find('.'));
 }
 
-double ratio(std::uint64_t now, std::uint64_t before) { return double(now) / double(std::max<std::uint64_t>(before, 1)); }
+/// Names of templates run to a thousand characters.
+std::string shortened(const std::string& function) {
+  constexpr std::size_t longest = 110;
+  return function.size() <= longest ? function : function.substr(0, longest) + "...";
+}
+
+double ratio(std::uint64_t now, std::uint64_t before) {
+  return double(now) / double(std::max<std::uint64_t>(before, 1));
+}
 
 /// Functions sorted by what they cost more than in the budget.
 std::string where(const Cost& budget, const Cost& now) {
@@ -127,7 +135,7 @@ Costs read_callgrind(const std::string& file, const std::string& plugin_folder, 
     if (line.starts_with("ob=")) {
       plugin = plugin_of(line.substr(3), plugin_folder, program);
     } else if (line.starts_with("fn=")) {
-      function = line.substr(3);
+      function = shortened(line.substr(3));
     } else if (line.starts_with("calls=")) {
       is_inclusive = true;
     } else if (!line.empty() && line[0] >= '0' && line[0] <= '9') {
@@ -158,8 +166,8 @@ std::vector<std::string> grown(const SceneBudget& budget, const Costs& now, doub
     }
     const Cost& allowed = found->second;
     if (ratio(cost.instructions, allowed.instructions) > 1 + allowance)
-      problems.push_back(fmt::format("{}: {} executes {} instructions, {:.1f} % more than its budget of {}{}", budget.name,
-                                     plugin, cost.instructions,
+      problems.push_back(fmt::format("{}: {} executes {} instructions, {:.1f} % more than its budget of {}{}",
+                                     budget.name, plugin, cost.instructions,
                                      100 * (ratio(cost.instructions, allowed.instructions) - 1), allowed.instructions,
                                      where(allowed, cost)));
   }

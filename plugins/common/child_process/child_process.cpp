@@ -40,7 +40,7 @@ int ChildProcess::start(const Setup& setup) {
   pid_t pid = 0;
   if (const int code = spawn(setup, theirs.get(), pid); code != 0) return code;
   process_.reset(pidfd_open(pid, 0));
-  if (!process_) {
+  if (!process_ && errno != ENOSYS) {
     const int code = errno;
     kill(-pid, SIGKILL);
     while (waitpid(pid, nullptr, 0) < 0 && errno == EINTR) continue;
@@ -51,7 +51,23 @@ int ChildProcess::start(const Setup& setup) {
   return 0;
 }
 
-ChildProcess::operator bool() const { return process_ && owner_ == getpid(); }
+ChildProcess::operator bool() const { return pid_ != 0 && owner_ == getpid(); }
+
+/// poll() of its descriptor, the first one, and of others. Where the system has none of processes (valgrind, Linux
+/// before 5.3), it asks every 2 ms; the process first, so that what it has sent before its end is there then.
+int ChildProcess::poll_with_process(std::span<pollfd> descriptors, int milliseconds) const {
+  if (process_) return poll(descriptors.data(), descriptors.size(), milliseconds);
+  const Clock::time_point until = Clock::now() + std::chrono::milliseconds(milliseconds);
+  for (;;) {
+    siginfo_t info{};
+    const bool ended = waitid(P_PID, id_t(pid_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid == pid_;
+    descriptors[0].revents = ended ? POLLIN : 0;
+    const int ready = poll(descriptors.data() + 1, descriptors.size() - 1, ended ? 0 : std::min(milliseconds, 2));
+    if (ready < 0) return ready;
+    if (ended || ready > 0) return ready + int(ended);
+    if (Clock::now() >= until) return 0;
+  }
+}
 
 bool ChildProcess::ends_within(std::chrono::milliseconds patience) const {
   if (!*this) return true;
@@ -59,12 +75,17 @@ bool ChildProcess::ends_within(std::chrono::milliseconds patience) const {
   for (;;) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
     pollfd process{process_.get(), POLLIN, 0};
-    const int ready = poll(&process, 1, int(std::max<std::int64_t>(left, 0)));
+    const int ready = poll_with_process({&process, 1}, int(std::max<std::int64_t>(left, 0)));
     if (ready >= 0 || errno != EINTR) return ready != 0;
   }
 }
 
-void ChildProcess::signal(int number) { pidfd_send_signal(process_.get(), number, nullptr, 0); }
+void ChildProcess::signal(int number) {
+  if (process_)
+    pidfd_send_signal(process_.get(), number, nullptr, 0);
+  else if (*this)
+    kill(pid_, number);  // until it is waited for, its number is that of no other process
+}
 
 ChildProcess::End ChildProcess::end(std::chrono::milliseconds patience) {
   End how;
@@ -73,13 +94,14 @@ ChildProcess::End ChildProcess::end(std::chrono::milliseconds patience) {
     signal(SIGKILL);
     siginfo_t info{};
     // until it is waited for, its number is that of its group and of no other one
-    if (waitid(P_PIDFD, id_t(process_.get()), &info, WEXITED | WNOHANG | WNOWAIT) == 0) kill(-pid_, SIGKILL);
+    if (waitid(P_PID, id_t(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0) kill(-pid_, SIGKILL);
     int done = 0;
-    while ((done = waitid(P_PIDFD, id_t(process_.get()), &info, WEXITED)) != 0 && errno == EINTR) continue;
+    while ((done = waitid(P_PID, id_t(pid_), &info, WEXITED)) != 0 && errno == EINTR) continue;
     if (done == 0 && info.si_code == CLD_EXITED) how.exit_code = info.si_status;
     if (done == 0 && info.si_code != CLD_EXITED) how.signal = info.si_status;
   }
   process_.reset();
+  pid_ = 0;
   has_closed_socket_ = false;
   return how;
 }
@@ -90,7 +112,7 @@ ChildProcess::Transfer ChildProcess::wait_for(short event, Clock::time_point unt
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
     if (left <= 0) return Transfer::late;
     pollfd both[] = {{process_.get(), POLLIN, 0}, {socket_.get(), event, 0}};
-    const int ready = poll(both, 2, int(std::min<std::int64_t>(left, 1'000'000'000)));
+    const int ready = poll_with_process(both, int(std::min<std::int64_t>(left, 1'000'000'000)));
     if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
     return both[1].revents != 0 ? Transfer::whole : Transfer::broken;
   }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <poll.h>
 #include <sys/types.h>
 
 #include <chrono>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -73,12 +75,13 @@ class ChildProcess {
   std::string take_rest(std::size_t most);
 
  private:
+  int poll_with_process(std::span<pollfd> descriptors, int milliseconds) const;
   Transfer wait_for(short event, Clock::time_point until) const;
   Transfer broken();
 
-  Descriptor socket_, process_;
+  Descriptor socket_, process_;  ///< without the latter: see poll_with_process()
   bool has_closed_socket_ = false;
-  pid_t pid_ = 0;
+  pid_t pid_ = 0;    ///< 0: there is none
   pid_t owner_ = 0;  ///< who has started it; another one has copies of the descriptors after a fork
 };
 

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 // With child_testing.cpp as the child.
 #include <gtest/gtest.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <signal.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 
+#include <cstddef>
 #include <filesystem>
 
 #include "as_child.hpp"
@@ -98,6 +103,40 @@ TEST(ChildProcess, SaysHowItHasEndedWhereItsSocketTellsFirst) {
       ASSERT_FALSE(how.was_ours);
       ASSERT_EQ(how.may_be_from_outside(), number != SIGUSR1);
     }
+}
+
+/// From now on the system says that it has no descriptors of processes.
+bool forbid_descriptors_of_processes() {
+  sock_filter program[] = {BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+                           BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_pidfd_open, 0, 1),
+                           BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOSYS),
+                           BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)};
+  const sock_fprog filter{std::size(program), program};
+  return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
+}
+
+/// What goes wrong; 0: nothing.
+int without_descriptors_of_processes() {
+  if (!forbid_descriptors_of_processes()) return 1;
+  ChildProcess child;
+  if (child.start(child_that("leave")) != 0) return 2;
+  const ChildProcess::End left = child.end(20s);
+  if (left.exit_code != 5 || left.was_ours) return 3;
+  if (child.start(child_that("say_and_wait")) != 0) return 4;
+  int number = 0;
+  if (child.receive(&number, sizeof number, ChildProcess::Clock::now() + 20s) != Transfer::whole) return 5;
+  if (child.receive(&number, sizeof number, ChildProcess::Clock::now() + 20ms) != Transfer::late) return 6;
+  if (!child.is_running()) return 7;
+  child.signal(SIGUSR1);
+  if (child.receive(&number, sizeof number, ChildProcess::Clock::now() + 20s) != Transfer::broken) return 8;
+  if (const ChildProcess::End died = child.end(20s); died.signal != SIGUSR1 || died.was_ours) return 9;
+  if (child.start(child_that("wait")) != 0) return 10;
+  if (!child.end().was_ours) return 11;
+  return test::child_processes().empty() ? 0 : 12;
+}
+
+TEST(ChildProcess, NeedsNoDescriptorsOfProcesses) {
+  EXPECT_EXIT(_exit(without_descriptors_of_processes()), ::testing::ExitedWithCode(0), "");
 }
 
 TEST(ChildProcess, IsWaitedForAsLongAsIsSaid) {
