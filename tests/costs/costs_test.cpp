@@ -93,7 +93,7 @@ TEST(Budgets, AreReadAsTheyAreWritten) {
   EXPECT_EQ(read[0].costs.at("motion_point").functions.at("step(int)"), 1000u);
 }
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(NDEBUG)
+#if defined(MURO_COSTS_ARE_COMPARABLE)
 TEST(SlowCosts, StayWithinTheirBudgets) {
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "the budgets are those of AVX2";
   std::string problems;
