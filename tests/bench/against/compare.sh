@@ -15,26 +15,27 @@ trap 'rm -rf "$scratch"' EXIT
 
 for which in old new; do
   mkdir "$scratch/$which"
-  for control in steer chatter; do
-    cc -O2 -shared -fPIC -I "${source[$which]}/sdk/c" "$here/$control.c" -o "$scratch/$which/$control.so"
+  for control in steer chatter; do # one whose ports an old revision lacks is missing in its scene
+    cc -O2 -shared -fPIC -I "${source[$which]}/sdk/c" "$here/$control.c" -o "$scratch/$which/$control.so" 2>/dev/null || true
   done
 done
 
 # Runs a scene with a build: prints the figure, or what went wrong.
 measure() { # WHICH FIGURE ARGUMENTS...
-  local which=$1 figure=$2 report=$scratch/report.json times=$scratch/times
+  local which=$1 figure=$2 report=$scratch/report.json start
   shift 2
-  rm -f "$report"
+  [[ $figure != wall ]] || set -- "$@" --report "$report"
+  start=${EPOCHREALTIME/./}
   if ! (cd "$here" && MURO_PLUGIN_PATH=${build[$which]}/lib/muro MURO_CONTROLLER_PATH=$scratch/$which \
-    /usr/bin/time -o "$times" -f '%e %M' "${build[$which]}/bin/muro" run "$@" --report "$report") \
-    >"$scratch/output" 2>&1; then
+    /usr/bin/time -o "$scratch/memory" -f %M "${build[$which]}/bin/muro" run "$@") \
+    >"$scratch/output" 2>&1 </dev/null; then
     grep -m1 -E 'error|no ' "$scratch/output" || tail -n1 "$scratch/output"
     return 1
   fi
   case $figure in
     wall) sed -n 's/^ *"wall_s": *\([0-9.e+-]*\),\?$/\1/p' "$report" ;;
-    start) cut -d' ' -f1 "$times" ;;
-    memory) awk '{ print $2 / 1024 }' "$times" ;;
+    start) awk "BEGIN { print (${EPOCHREALTIME/./} - $start) * 1e-6 }" ;;
+    memory) awk '{ print $1 / 1024 }' "$scratch/memory" ;;
   esac
 }
 
@@ -71,7 +72,7 @@ while IFS='|' read -r name figure rounds arguments; do
       sort(old, NR); sort(new, NR); sort(ratio, NR)
       middle = quantile(ratio, NR, 0.5); spread = (quantile(ratio, NR, 0.75) - quantile(ratio, NR, 0.25)) / 2
       printf "%.4g %.4g %.3f %.3f %s\n", quantile(old, NR, 0.5), quantile(new, NR, 0.5), middle, spread,
-             middle > 1 + (spread > 0.03 ? spread : 0.03) ? "slower" : ""
+             (middle > 1 + (spread > 0.03 ? spread : 0.03) ? "slower" : "")
     }')
   read -r old new ratio spread verdict <<<"$line"
   unit=s
