@@ -102,7 +102,7 @@ void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_tur
     throw Error(quote(view.name) + " has no mass, so no contact can push it; give its bodies `inertial`");
   Robot r;
   r.contacts = c.read_list(view.base(), keys::contacts);
-  r.anchors = c.variable_list(view.base(), anchors);
+  r.anchors = {c.variable_list(view.base(), anchors), c.variable_list(view.base(), anchor_details)};
   r.solved = c.variable_list(view.base(), solved_contacts);
   r.told = c.derived_list(view.base(), keys::contact_wrenches_of_law);
   if (resists_turning) r.turning_springs = c.variable_list(view.base(), turning_springs);

@@ -45,7 +45,7 @@ struct DynamicBody {
 /// A robot that forces can move.
 struct Robot {
   ListIn<Contact> contacts;
-  ListOut<FrictionAnchor> anchors;
+  Anchors anchors;
   ListOut<TurningSpring> turning_springs;        ///< empty: no shape resists rolling or spinning
   ListOut<SolvedContact> solved;                 ///< contacts that it has computed
   ListOut<ContactWrench> told;                   ///< see Bodies::tells_contacts

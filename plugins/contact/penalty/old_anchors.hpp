@@ -23,7 +23,7 @@ struct OldAnchors {
   }
   MURO_INLINE void load_way(int k, const Places<S>& places, int number) {
     S g[3];
-    load_rows(places, number + anchor_way, g);
+    load_rows(places, number, g);
     last_way[k] = {g[0], g[1], g[2]};
   }
   /// The tangential displacement of the nearest of the first `count`; `way`: from there, m; out.

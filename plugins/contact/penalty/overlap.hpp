@@ -12,10 +12,10 @@ namespace muro::penalty {
 inline constexpr double least_overlap = 5e-3;
 
 /// What of the depth of a contact its spring does not see (m). A spring of the whole depth would throw bodies out of
-/// each other; what was there before they moved is taken back at `correcting_speed` instead. `before`: the nearest
-/// friction anchor of the pair in the step before; null for none. `approach`: speed of the bodies towards each other
-/// (m/s).
-inline double unmoved_overlap(const StepContext& context, const Contact& contact, const FrictionAnchor* before,
+/// each other; what was there before they moved is taken back at `correcting_speed` instead. `before`: of the
+/// nearest friction anchor of the pair in the step before; null for none. `approach`: speed of the bodies towards each
+/// other (m/s).
+inline double unmoved_overlap(const StepContext& context, const Contact& contact, const AnchorDetail* before,
                               double approach) {
   if (before) return std::clamp(before->overlap - context.correcting_speed * context.elapsed, 0.0, contact.depth);
   const double moved = 2 * std::max(approach, 0.0) * context.elapsed;

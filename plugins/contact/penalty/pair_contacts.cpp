@@ -294,8 +294,9 @@ void PairContacts::find_springs(std::uint32_t self) {
     ContactPatch& patch = me.patches[c.patch];
     if (!patch.has_load) set_load(self, patch);
     point.patch = &patch.effective_mass.along;
-    point.overlap = unmoved_overlap(context_, contact, before, point.approach);
-    find_lever_shifts(self, patch, contact.point, before, c);
+    const AnchorDetail detail = before ? bodies_.robots[self].anchors.detail_of(*before) : AnchorDetail{};
+    point.overlap = unmoved_overlap(context_, contact, before ? &detail : nullptr, point.approach);
+    find_lever_shifts(self, patch, contact.point, before, detail, c);
   }
 }
 
@@ -323,7 +324,7 @@ void PairContacts::apply_forces(std::uint32_t self) {
       robot.anchors.push_back(anchor_of_impact(c.pair));
       continue;
     }
-    robot.anchors.push_back({c.pair, contact.point, Vec3::Map(point.displacement), point.overlap, c.way});
+    robot.anchors.push_back({c.pair, contact.point, Vec3::Map(point.displacement)}, {point.overlap, c.way});
     if (me.group != no_group) robot.solved.push_back(c.solved);
     const Vec3 force = Vec3::Map(point.force);
     ContactPatch& patch = me.patches[c.patch];

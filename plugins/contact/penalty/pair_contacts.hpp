@@ -207,11 +207,11 @@ class PairContacts {
   Vec3 resist_turning(std::uint32_t self, ContactPatch& patch, const Contact& contact, const TurningSpring& spring,
                       double normal_force);
   void find_lever_shifts(std::uint32_t self, const ContactPatch& patch, const Vec3& at, const FrictionAnchor* before,
-                         Computed& c) const;
+                         const AnchorDetail& detail, Computed& c) const;
   void find_shared_lever_shifts(std::uint32_t self, const ContactPatch& patch, const Vec3& at,
                                 const FrictionAnchor* before, Computed& c) const;
   void find_own_lever_shift(std::uint32_t self, const ContactPatch& patch, const Vec3& at, const FrictionAnchor* before,
-                            Computed& c) const;
+                            const AnchorDetail& detail, Computed& c) const;
   void apply_to_pair(const Computed& c, ContactPatch& patch, const Vec3& force, const Vec3& moment,
                      const Vec3& point) const;
   Vec3 centre_velocity(std::int32_t robot, std::uint32_t body) const;

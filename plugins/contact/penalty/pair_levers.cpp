@@ -7,14 +7,14 @@
 namespace muro::penalty {
 
 /// How far the levers of a contact in which its force acts are from those of the begin of the step, m. `before`: the
-/// anchor of the step before; null: there is none.
+/// anchor of the step before; null: there is none; `detail`: of it.
 void PairContacts::find_lever_shifts(std::uint32_t self, const ContactPatch& patch, const Vec3& at,
-                                     const FrictionAnchor* before, Computed& c) const {
+                                     const FrictionAnchor* before, const AnchorDetail& detail, Computed& c) const {
   const bool lasts = before && context_.elapsed > 0;
   if (patch.other != no_robot)
     find_shared_lever_shifts(self, patch, at, lasts ? before : nullptr, c);
   else
-    find_own_lever_shift(self, patch, at, lasts ? before : nullptr, c);
+    find_own_lever_shift(self, patch, at, lasts ? before : nullptr, detail, c);
 }
 
 /// Of two robots: where poses and twists are of one instant, levers are those of the middle of the step, and those of
@@ -35,7 +35,7 @@ void PairContacts::find_shared_lever_shifts(std::uint32_t self, const ContactPat
 
 /// Of one body that rolls over what no force moves.
 void PairContacts::find_own_lever_shift(std::uint32_t self, const ContactPatch& patch, const Vec3& at,
-                                        const FrictionAnchor* before, Computed& c) const {
+                                        const FrictionAnchor* before, const AnchorDetail& detail, Computed& c) const {
   c.lever_shift.setZero();
   c.way.setZero();
   if (!before || !bodies_.robots[self].is_one_link || *bodies_.robots[self].lag != 0) return;
@@ -43,7 +43,7 @@ void PairContacts::find_own_lever_shift(std::uint32_t self, const ContactPatch& 
   if (!(way.squaredNorm() < law::square_of_reach(mobility(std::int32_t(self), patch.body)))) return;
   c.way = way;
   const double half = 0.5 * context_.stiffness.h;
-  c.lever_shift = half / context_.elapsed * vector_of(law::way_ahead(plain(way), plain(before->way))) -
+  c.lever_shift = half / context_.elapsed * vector_of(law::way_ahead(plain(way), plain(detail.way))) -
                   half * centre_velocity(std::int32_t(self), patch.body);
 }
 

@@ -32,6 +32,7 @@ constexpr PropertyUse reads[] = {
 constexpr PropertyUse writes[] = {
     {"wrench.external", "of every robot that forces move"},
     {"contact.friction_anchors", "friction anchors, of every robot that forces move"},
+    {"contact.friction_anchor_details", "of each of them, where one rolls or stands in what it was put into"},
     {keys::carried_mass.name, "of every robot whose motion resolves contacts, too"},
     {"contact.solved", "contacts that were solved together with others, of the same"},
     {"contact.turning_springs", "springs against rolling and spinning, of the same, where shapes resist these"},

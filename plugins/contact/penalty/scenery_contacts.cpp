@@ -16,7 +16,7 @@ static_assert(sizeof(Contact) == contact_stride * sizeof(double) && offsetof(Con
               offsetof(Contact, normal) == 32 && offsetof(Contact, depth) == 56 && offsetof(Contact, surface) == 64 &&
               offsetof(Contact, self_shape) == 96 && sizeof(FrictionAnchor) == anchor_stride * sizeof(double) &&
               offsetof(FrictionAnchor, point) == 8 && offsetof(FrictionAnchor, displacement) == 32 &&
-              offsetof(FrictionAnchor, way) == offsetof(FrictionAnchor, point) + anchor_way * sizeof(double) &&
+              sizeof(AnchorDetail) == way_stride * sizeof(double) && offsetof(AnchorDetail, way) == 8 &&
               sizeof(ContactWrench) == force_stride * sizeof(double));
 
 /// Two adjacent numbers of 4 bytes.
@@ -35,6 +35,7 @@ struct SceneryContacts::Plan {
   KernelContact contacts[max_contacts];
   std::size_t before_count = 0;
   FrictionAnchor before[max_contacts];  ///< of the step before, group by group
+  AnchorDetail details[max_contacts];   ///< of these
 };
 
 /// By number of contacts, since the kernel takes as long as the robot with the most of them, and by their groups, since
@@ -241,6 +242,10 @@ void SceneryContacts::process_queue(const StepContext& context, Queue& q) {
     KernelRobot& view = views[i] = known.view;
     view.listed = (*known.list)[0].point.data();
     view.before = view.anchors = (*known.anchors)[0].point.data();
+    if (view.rolls) {
+      known.anchors.add_details();
+      view.ways_before = view.ways = known.anchors.details()[0].way.data();
+    }
     if (bodies_.tells_contacts)
       view.forces = Bodies::tell(bodies_.robots[q.robots[i]], *known.list)->wrench.force.data();
     all[i] = &view;
@@ -279,7 +284,10 @@ void SceneryContacts::make_plan(std::uint32_t robot, std::uint32_t which, Plan& 
       plan.groups |= 1u << plan.count;
       begin = plan.before_count;
       for (const FrictionAnchor& a : *robots_[robot].anchors)
-        if (a.pair == pair && plan.before_count < max_contacts) plan.before[plan.before_count++] = a;
+        if (a.pair == pair && plan.before_count < max_contacts) {
+          plan.details[plan.before_count] = robots_[robot].anchors.detail_of(a);
+          plan.before[plan.before_count++] = a;
+        }
     }
     KernelContact& c = plan.contacts[plan.count++] = contacts_[robot][k];
     c.anchors_begin = std::uint8_t(begin);
@@ -298,6 +306,10 @@ KernelRobot SceneryContacts::view_of(std::uint32_t robot, const Plan& plan) cons
   view.listed = (*known.list)[0].point.data();
   view.before = plan.before[0].point.data();
   view.anchors = (*known.anchors)[0].point.data();
+  if (!view.rolls) return view;
+  known.anchors.add_details();
+  view.ways_before = plan.details[0].way.data();
+  view.ways = known.anchors.details()[0].way.data();
   return view;
 }
 
@@ -336,7 +348,7 @@ void SceneryContacts::process_changed(const StepContext& context, Queues& queues
     const KnownRobot& known = robots_[q.robots[i]];
     known.anchors.clear();
     const Plan& plan = queues.plan(i);
-    for (const FrictionAnchor& a : std::span(plan.before, plan.before_count)) known.anchors.push_back(a);
+    for (std::size_t k = 0; k < plan.before_count; ++k) known.anchors.push_back(plan.before[k], plan.details[k]);
     process_single(context, q.robots[i]);
   }
   q.count = 0;
@@ -354,7 +366,7 @@ bool SceneryContacts::find_overlaps(const StepContext& context, std::uint32_t ro
     const FrictionAnchor* const anchor =
         previous<FrictionAnchor>(before, std::size_t(i), identities_[robot][k].pair, c.point);
     const double approach = -c.normal.dot(bodies_.velocity(c.self, c.point));
-    overlaps[k] = unmoved_overlap(context, c, anchor, approach);
+    overlaps[k] = unmoved_overlap(context, c, anchor ? &plan.details[anchor - plan.before] : nullptr, approach);
     any = any || overlaps[k] > 0;
   }
   return any;
@@ -396,9 +408,11 @@ void SceneryContacts::process_single(const StepContext& context, std::uint32_t r
   const bool parts = find_overlaps(context, robot, plan, overlaps);
   known.anchors.clear();
   for (std::uint32_t k = 0; k < known.contacts; ++k) {
-    FrictionAnchor anchor = anchor_of_impact(identities_[robot][k].pair);
-    if (!(impacts >> k & 1)) anchor = {.pair = anchor.pair, .overlap = overlaps[k]};
-    known.anchors.push_back(anchor);
+    const std::uint64_t pair = identities_[robot][k].pair;
+    if (impacts >> k & 1)
+      known.anchors.push_back(anchor_of_impact(pair));
+    else
+      known.anchors.push_back({.pair = pair}, {.overlap = overlaps[k]});
   }
   known.anchors_match = true;
   known.is_parting = parts;
@@ -415,7 +429,8 @@ void SceneryContacts::find_match(std::uint32_t robot) {
   known.anchors_match = all.size() == known.contacts;
   for (std::size_t k = 0; k < all.size() && known.anchors_match; ++k)
     known.anchors_match = all[k].pair == identities_[robot][k].pair;
-  known.is_parting = std::any_of(all.begin(), all.end(), [](const FrictionAnchor& a) { return a.overlap > 0; });
+  const auto details = known.anchors.details();
+  known.is_parting = std::any_of(details.begin(), details.end(), [](const AnchorDetail& d) { return d.overlap > 0; });
   known.was_in_impact = std::any_of(all.begin(), all.end(), is_of_impact);
 }
 

@@ -32,7 +32,7 @@ class SceneryContacts {
   /// Results depend on contacts and anchors alone.
   struct KnownRobot {
     ListIn<Contact> list;
-    ListOut<FrictionAnchor> anchors;
+    Anchors anchors;
     KernelRobot view;                      ///< without addresses of contacts and anchors
     std::uint64_t revision = 0;            ///< of the list of contacts, when it was last seen
     std::uint32_t contacts = 0;            ///< known

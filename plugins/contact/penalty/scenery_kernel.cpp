@@ -38,6 +38,7 @@ class RobotContacts {
       rolling |= unsigned(r.rolls) << i;
       listed_.at[i] = r.listed, before_.at[i] = r.before;
       anchors_.at[i] = r.anchors, wrench_.at[i] = r.wrench, forces_.at[i] = r.forces;
+      ways_before_.at[i] = r.rolls ? r.ways_before : r.listed, ways_.at[i] = r.ways;
       poses.at[i] = r.base_pose, masses.at[i] = r.mass;
     }
     is_uniform_ = is_uniform_ && in_order_;
@@ -91,7 +92,7 @@ class RobotContacts {
     for (int i = 0; i < count_of<S>; ++i) twists.at[i] = robot(i).base_twist;
     const TwistOf<S> twist = load_twist(twists);
     any_rolls_ = true;
-    rolls_ = of_bits(rolling);
+    rolls_ = mask_of<S>(rolling);
     drift_ = (twist.linear + cross(twist.angular, body_.centre - base_)) * S(0.5 * batch_.stiffness.h);
     reach2_ = square_of_reach(body_);
   }
@@ -102,12 +103,15 @@ class RobotContacts {
     S spin;              ///< m/s: of the ends of its cell, see law::speed_of_ends
     V3<S> displacement;  ///< m, tangential
   };
-  struct Point : Moved {
+  struct Point {
     V3<S> at, normal;
-    V3<S> arm;  ///< m, from the base to where it is in the middle of the step, when the force acts, as seen from the
-                ///< centre
     S depth, friction;
-    S patch;     ///< number; -1 in lanes of robots that have fewer contacts
+    S patch;  ///< number; -1 in lanes of robots that have fewer contacts
+  };
+  /// What points of some robots have beside that; apart, so that the others take few lines of the cache.
+  struct Detail {
+    V3<S> arm;   ///< m, from the base to where it is in the middle of the step, when the force acts, as seen from the
+                 ///< centre
     V3<S> way;   ///< m: in the last step, of robots that roll
     V3<S> turn;  ///< m, of a face: slip of the middle of its cell against its own, for 1 rad/s about the normal
   };
@@ -121,7 +125,7 @@ class RobotContacts {
   struct Run {
     int begin, end;
     int most_anchors;
-    Places<S> poses, twists, anchors;
+    Places<S> poses, twists, anchors, ways;
     int last_anchor[count_of<S>];  ///< -1: none
     bool all_have_anchors;
   };
@@ -184,7 +188,7 @@ class RobotContacts {
       p.patch = k < least_ ? found : select(S(k) < count_, found, S(-1));
     }
     any_looked_at_ = patch_count_ > 1 || changed_ != 0;
-    if (any_looked_at_) looked_at_ = (of_patches > S(1)) | of_bits(changed_);
+    if (any_looked_at_) looked_at_ = (of_patches > S(1)) | mask_of<S>(changed_);
   }
 
   MURO_INLINE static MaskOf<S> of_patch(const PatchOf& patch, const V3<S>& normal, S object) {
@@ -207,7 +211,7 @@ class RobotContacts {
     if (groups_ >> k & 1) {
       unsigned go_on = 0;
       for (int i = 0; i < count_of<S>; ++i) go_on |= (~robot(i).groups >> k & 1) << i;
-      lanes = lanes & of_bits(go_on);
+      lanes = lanes & mask_of<S>(go_on);
     }
     return lanes;
   }
@@ -248,7 +252,7 @@ class RobotContacts {
     V3<S> arms[max_contacts];  // from the middle
     const auto of_face = [&](int k) -> MaskOf<S> { return (goes_on[k] | goes_on[k + 1]) & (faces[k].count > S(2)); };
     for (int k = 0; k < most_; ++k) {
-      points_[k].turn = {S(0), S(0), S(0)};
+      details_[k].turn = {S(0), S(0), S(0)};
       in_face_[k] = S(1) < S(0);
       faces[k] = {};
       faces[k].add(points_[k].at - base_);
@@ -269,8 +273,8 @@ class RobotContacts {
       if (!any(here)) continue;
       const S is_disc = of_contacts(k, [](const KernelContact& c) { return c.is_of_disc; });
       const S share = contact_geometry::share_of_cells(faces[k], distances[k], farthest[k], is_disc);
-      Point& p = points_[k];
-      p.turn = select(here, cross(patch_normal(k), arms[k]) * (share - S(1)), p.turn);
+      V3<S>& turn = details_[k].turn;
+      turn = select(here, cross(patch_normal(k), arms[k]) * (share - S(1)), turn);
       in_face_[k] = here;
     }
   }
@@ -338,6 +342,7 @@ class RobotContacts {
       // where there is none, numbers of the contact stand in
       run.anchors.at[i] =
           anchors > 0 ? before_.at[i] + c.anchors_begin * anchor_stride : listed_.at[i] + c.place * contact_stride;
+      run.ways.at[i] = ways_before_.at[i] + (anchors > 0 && robot(i).rolls ? c.anchors_begin * way_stride : 0);
       run.last_anchor[i] = anchors - 1;
       run.all_have_anchors = run.all_have_anchors && anchors > 0;
       run.most_anchors = anchors > run.most_anchors ? anchors : run.most_anchors;
@@ -346,18 +351,28 @@ class RobotContacts {
   template <int n>
   MURO_INLINE void load_anchors(const Run& run, OldAnchors<S, n>& to) const {
     const int anchors = n < max_contacts ? n : run.most_anchors;
-    const auto load = [&](int k, const Places<S>& places, int number) {
-      to.load(k, places, number);
-      if (any_rolls_) to.load_way(k, places, number);
-    };
     if (is_uniform_) {
-      for (int k = 0; k < anchors; ++k) load(k, before_, (run.begin + k) * anchor_stride);
-      return;
+      for (int k = 0; k < anchors; ++k) to.load(k, before_, (run.begin + k) * anchor_stride);
+    } else {
+      Places<S> at = run.anchors;
+      for (int k = 0; k < anchors; ++k) {
+        to.load(k, at, 0);
+        for (int i = 0; i < count_of<S>; ++i) at.at[i] += k < run.last_anchor[i] ? anchor_stride : 0;  // the last again
+      }
     }
-    Places<S> at = run.anchors;
+    if (any_rolls_) load_ways(run, anchors, to);
+  }
+  /// Those of robots that do not roll are any numbers.
+  template <int n>
+  [[gnu::noinline]] void load_ways(const Run& run, int anchors, OldAnchors<S, n>& to) const {
+    Places<S> at = run.ways;
+    if (is_uniform_)
+      for (int i = 0; i < count_of<S>; ++i)
+        at.at[i] = ways_before_.at[i] + (robot(i).rolls ? run.begin * way_stride : 0);
     for (int k = 0; k < anchors; ++k) {
-      load(k, at, 0);
-      for (int i = 0; i < count_of<S>; ++i) at.at[i] += k < run.last_anchor[i] ? anchor_stride : 0;  // the last again
+      to.load_way(k, at, 0);
+      for (int i = 0; i < count_of<S>; ++i)
+        at.at[i] += robot(i).rolls && (is_uniform_ || k < run.last_anchor[i]) ? way_stride : 0;
     }
   }
   template <Cells cells>
@@ -376,24 +391,26 @@ class RobotContacts {
     const S half_step(batch_.elapsed > 0 ? 0.5 * batch_.stiffness.h / batch_.elapsed : 0);
     const MaskOf<S> have_anchors = having_anchors(run);
     for (int k = run.begin; k < run.end; ++k) {
-      Point& p = points_[k];
-      if (cells == Cells::none || (cells == Cells::any && !has_cells_)) find_slip(p, motion, origin, p);
+      const Point& p = points_[k];
+      Moved& moved = moved_[k];
+      if (cells == Cells::none || (cells == Cells::any && !has_cells_)) find_slip(p, motion, origin, moved);
       V3<S> old{zero, zero, zero}, way = old;
       if (anchors > 0) old = before.nearest(p.at, anchors, way);
       if (!run.all_have_anchors) old = select(have_anchors, old, {zero, zero, zero});
-      if constexpr (cells == Cells::any) p.arm = p.at - base_;
+      if constexpr (cells == Cells::any) details_[k].arm = p.at - base_;
       if (cells == Cells::any && any_rolls_) {
         // a point that moves over the body, as on a rim, moves on; others appear
         const V3<S> none{zero, zero, zero}, last = anchors > 0 ? before.way_of_nearest(p.at, anchors) : none;
         const auto moves_on = (dot(way, way) < reach2_) & have_anchors & rolls_;
-        p.arm = select(moves_on, p.arm + (way_ahead(way, last) * half_step - drift_), p.arm);
-        p.way = select(moves_on, way, none);
+        Detail& detail = details_[k];
+        detail.arm = select(moves_on, detail.arm + (way_ahead(way, last) * half_step - drift_), detail.arm);
+        detail.way = select(moves_on, way, none);
       }
-      p.displacement = displacement_of(p.normal, old, p.slip);
+      moved.displacement = displacement_of(p.normal, old, moved.slip);
       if (!any_looked_at_) continue;
-      const auto fast = (p.approach > impact_speed) & looked_at_ & (p.patch >= zero);
+      const auto fast = (moved.approach > impact_speed) & looked_at_ & (p.patch >= zero);
       if (!any(fast)) continue;
-      const S reach = S(lasting_reach) + S(lasting_slips) * elapsed * sqrt(dot(p.slip, p.slip));
+      const S reach = S(lasting_reach) + S(lasting_slips) * elapsed * sqrt(dot(moved.slip, moved.slip));
       const S distance2 = anchors > 0 ? before.least_distance2(p.at, anchors) : zero;
       const auto lasts = have_anchors & (distance2 < reach * reach);
       may_collide = select(fast, select(lasts, may_collide, S(1)), may_collide);
@@ -428,18 +445,18 @@ class RobotContacts {
       const V3<S> origin = load_vector(run.poses);
       const TwistOf<S> motion = load_twist(run.twists);
       for (int k = run.begin; k < run.end; ++k) {
-        Point& p = points_[k];
-        find_slip(p, motion, origin, p);
-        p.spin = S(0);
+        Moved& moved = moved_[k];
+        find_slip(points_[k], motion, origin, moved);
+        moved.spin = S(0);
         if (!has_faces_ || !any(in_face_[k])) continue;
-        const V3<S> more = dot(motion.angular, patch_normal(k)) * p.turn;
-        p.slip = select(in_face_[k], p.slip + more, p.slip);
-        p.spin = select(in_face_[k], speed_of_ends(more), S(0));
+        const V3<S> more = dot(motion.angular, patch_normal(k)) * details_[k].turn;
+        moved.slip = select(in_face_[k], moved.slip + more, moved.slip);
+        moved.spin = select(in_face_[k], speed_of_ends(more), S(0));
       }
     }
     for (int k = 0; k < most_; ++k) {
       if (has_line_[k]) {
-        Point &first = points_[k], &second = points_[k + 1];
+        Moved &first = moved_[k], &second = moved_[k + 1];
         const V3<S> part = part_of_line(first.slip, second.slip);
         const S spin = speed_of_ends(part);
         first.slip = select(begins_line_[k], first.slip + part, first.slip);
@@ -447,13 +464,8 @@ class RobotContacts {
         first.spin = select(begins_line_[k], spin, first.spin);
         second.spin = select(begins_line_[k], spin, second.spin);
       }
-      largest_spin_ = max(points_[k].spin, largest_spin_);
+      largest_spin_ = max(moved_[k].spin, largest_spin_);
     }
-  }
-  MURO_INLINE static MaskOf<S> of_bits(unsigned which) {
-    double v[count_of<S>];
-    for (int i = 0; i < count_of<S>; ++i) v[i] = which >> i & 1;
-    return side_by_side(v) > S(0);
   }
 
   /// What a contact does: along the normal in its point, across it in the middle of its cell.
@@ -501,13 +513,13 @@ class RobotContacts {
     NormalLaw<S> law(batch_.stiffness, of_contacts(0, zeta_of), load);
     if constexpr (cells == Cells::none) {
       for (int k = 0; k < most_; ++k) {
-        const Push p = push_of<cells>(k, points_[k], false, friction, law, load, processed);
+        const Push p = push_of<cells>(k, moved_[k], false, friction, law, load, processed);
         add<cells>(k, p.along + p.across, force, torque);
       }
     } else {
       Push pushes[max_contacts];
       for (int k = 0; k < most_; ++k)
-        pushes[k] = push_of<cells>(k, points_[k], any_spins_, friction, law, load, processed);
+        pushes[k] = push_of<cells>(k, moved_[k], any_spins_, friction, law, load, processed);
       if (has_cells_) move_friction(pushes, torque);
       for (int k = 0; k < most_; ++k) add<cells>(k, pushes[k].along + pushes[k].across, force, torque);
     }
@@ -574,7 +586,7 @@ class RobotContacts {
   template <Cells cells>
   MURO_INLINE void add(int k, const V3<S>& all, V3<S>& force, V3<S>& torque) const {
     force += all;
-    torque += cross(cells == Cells::any ? points_[k].arm : points_[k].at - base_, all);
+    torque += cross(cells == Cells::any ? details_[k].arm : points_[k].at - base_, all);
   }
   /// What friction of a line does in the middles of its cells, it does as well in the ends, in parts; that of faces has
   /// moments about their normals.
@@ -594,7 +606,7 @@ class RobotContacts {
       S moment(0);
       for (int k = 0; k < most_; ++k)
         if (const auto here = in_face_[k] & (points_[k].patch == S(n)); any(here))
-          moment += select(here, dot(points_[k].turn, pushes[k].across), S(0));
+          moment += select(here, dot(details_[k].turn, pushes[k].across), S(0));
       torque += moment * patches_[n].normal;
     }
   }
@@ -614,12 +626,13 @@ class RobotContacts {
         const V3<S> to_cell = part_of_line(p.at, points_[first == k ? k + 1 : k - 1].at);
         torque = select(begins_line_[first], cross(to_cell, push.across), torque);
       }
-      if (has_faces_) torque = select(in_face_[k], dot(p.turn, push.across) * patch_normal(k), torque);
+      if (has_faces_) torque = select(in_face_[k], dot(details_[k].turn, push.across) * patch_normal(k), torque);
     }
     const V3<S> force = push.along + push.across;
     store_rows(forces_, k * force_stride, {force.x, force.y, force.z, torque.x, torque.y, torque.z}, which);
   }
   MURO_INLINE void store_contact(int k, const V3<S>& displacement, unsigned which) const {
+    if (any_rolls_) store_way(k, which & bits(rolls_));
     if (is_plain(k)) return store_anchor(anchors_, k * anchor_stride, k, displacement, which);
     Places<S, double> anchors;
     each_contact(k, [&](int i, const KernelContact& c) { anchors.at[i] = anchors_.at[i] + c.anchor * anchor_stride; });
@@ -629,9 +642,14 @@ class RobotContacts {
                                 unsigned which) const {
     const V3<S>&at = points_[k].at, &d = displacement;
     store_rows(anchors, number, {at.x, at.y, at.z, d.x, d.y, d.z}, which);
-    if (!any_rolls_) return;
-    const V3<S>& way = points_[k].way;
-    store_rows(anchors, number + anchor_way, {way.x, way.y, way.z}, which & bits(rolls_));
+  }
+  [[gnu::noinline]] void store_way(int k, unsigned which) const {
+    Places<S, double> ways = ways_;
+    each_contact(k, [&](int i, const KernelContact& c) {
+      if (which >> i & 1) ways.at[i] += c.anchor * way_stride;
+    });
+    const V3<S>& way = details_[k].way;
+    store_rows(ways, 0, {way.x, way.y, way.z}, which);
   }
 
   const KernelBatch& batch_;
@@ -654,8 +672,8 @@ class RobotContacts {
   int last_[count_of<S>];
   int least_ = 0, most_ = 0;  ///< contacts that a robot has
   S count_;                   ///< of contacts of each
-  Places<S> listed_, before_;
-  Places<S, double> anchors_, wrench_, forces_;
+  Places<S> listed_, before_, ways_before_;
+  Places<S, double> anchors_, ways_, wrench_, forces_;
   Mobility<S> body_;
   V3<S> base_;
   V3<S> drift_;  ///< m: what the centre of mass moves by within half a step
@@ -665,6 +683,8 @@ class RobotContacts {
   int patch_count_ = 0;
   PatchOf patches_[max_contacts];
   Point points_[max_contacts];
+  Moved moved_[max_contacts];
+  Detail details_[max_contacts];
 };
 
 unsigned apply_forces(const KernelBatch& batch, const KernelRobot* const* robots, int count) {

@@ -39,14 +39,18 @@ struct KernelRobot {
   const double* listed = nullptr;  ///< point of the first listed contact
   const double* before = nullptr;  ///< point of the first anchor of the step before; may be `anchors`
   double* anchors = nullptr;       ///< point of the first; out
+  /// Of robots that roll: the way of the first anchor of the step before, which may be `ways`, and that of the first;
+  /// out.
+  const double* ways_before = nullptr;
+  double* ways = nullptr;
   const double *base_pose = nullptr, *base_twist = nullptr;
   const double* mass = nullptr;  ///< numbers of MassProperties
   double* wrench = nullptr;      ///< on the base; out
   double* forces = nullptr;  ///< force and torque of the first of `contacts`; out, where KernelBatch::tells_contacts
 };
-inline constexpr int contact_stride = 13, anchor_stride = 11, force_stride = 14;  ///< in numbers
-/// A contact, from its point on: point, normal, depth, friction. An anchor: point, displacement; later, its way.
-inline constexpr int contact_numbers = 8, anchor_numbers = 6, anchor_way = 7;
+inline constexpr int contact_stride = 13, anchor_stride = 7, way_stride = 4, force_stride = 14;  ///< in numbers
+/// A contact, from its point on: point, normal, depth, friction. An anchor: point, displacement.
+inline constexpr int contact_numbers = 8, anchor_numbers = 6;
 
 /// What the robots of one call share.
 struct KernelBatch {

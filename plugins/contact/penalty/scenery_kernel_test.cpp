@@ -35,6 +35,7 @@ struct Vehicle {
   Contact contacts[8];
   int object_of[8] = {};  ///< of the scenery
   FrictionAnchor before[16], anchors[8];
+  AnchorDetail details_before[16], details[8];
   int anchors_before[4] = {2, 2, 2, 2};  ///< of each body, in `before`
   const MassProperties* mass = &light;
   bool is_changed = false;
@@ -71,6 +72,8 @@ struct Vehicle {
     v.listed = contacts[0].point.data();
     v.before = before[0].point.data();
     v.anchors = anchors[0].point.data();
+    v.ways_before = details_before[0].way.data();
+    v.ways = details[0].way.data();
     v.base_pose = base.position.data();
     v.base_twist = twist.linear.data();
     v.mass = &mass->inverse_mass;
@@ -122,7 +125,9 @@ Vehicle random_vehicle(std::mt19937& random, double speed, bool uneven) {
     for (int i = 0; i < v.anchors_before[b]; ++i) {
       const Vec3& near = v.contacts[(v.per_body * b + std::size_t(i) % v.per_body) % 8].point;
       const Vec3 from = vector(0.02);
-      v.before[end++] = {b, near + from, vector(1e-4), 0, vector(number(0, 1) == 1 ? 3e-3 : 0.05) - from};
+      const Vec3 displacement = vector(1e-4);
+      v.details_before[end].way = vector(number(0, 1) == 1 ? 3e-3 : 0.05) - from;
+      v.before[end++] = {b, near + from, displacement};
     }
   return v;
 }
@@ -209,7 +214,7 @@ Wrench by_the_model(const Vehicle& v, std::vector<Vec3>& displacements) {
       const Vec3 way = c.point - before->point;
       if (v.rolls &&
           way.squaredNorm() * inertia.trace() < 3 * v.mass->inverse_mass) {  // it is the same point, and moves on
-        const Vec3 bend = way - before->way;
+        const Vec3 bend = way - v.details_before[before - v.before].way;
         const bool goes_round = bend.squaredNorm() < 0.25 * way.squaredNorm();
         arm += 0.5 * ((goes_round ? Vec3(way + 1.6 * bend) : way) - h * v.twist.at(centre - v.base.position));
       }
@@ -269,6 +274,7 @@ void expect_the_same_bits(const std::vector<Vehicle>& drawn, const KernelBatch& 
     ASSERT_EQ(scenery_kernels_for(lane::Isa::base).apply_forces(batch, view, 1), left >> k & 1) << "robot " << k;
     ASSERT_EQ(std::memcmp(&alone[k].wrench, &together[k].wrench, sizeof(Wrench)), 0) << "robot " << k;
     ASSERT_EQ(std::memcmp(alone[k].anchors, together[k].anchors, sizeof alone[k].anchors), 0) << "robot " << k;
+    ASSERT_EQ(std::memcmp(alone[k].details, together[k].details, sizeof alone[k].details), 0) << "robot " << k;
   }
 }
 

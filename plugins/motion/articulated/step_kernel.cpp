@@ -105,21 +105,6 @@ struct Bases {
   }
 };
 
-template <class S>
-MURO_INLINE void set_lane(S& value, int i, double x) {
-  if constexpr (count_of<S> == 1)
-    value = x;
-  else
-    value.set(i, x);
-}
-/// Lanes as bits say.
-template <class S>
-MURO_INLINE MaskOf<S> mask_of(unsigned bits) {
-  S one((bits & lane::all_lanes<S>) != 0 ? 1 : 0);
-  if (bits != 0 && (bits & lane::all_lanes<S>) != lane::all_lanes<S>)
-    for (int i = 0; i < count_of<S>; ++i) set_lane(one, i, bits >> i & 1);
-  return one > S(0);
-}
 /// Bits of robots of which `test` is true.
 template <class Test>
 MURO_INLINE unsigned robots_that(const RobotState* robots, int count, const Test& test) {

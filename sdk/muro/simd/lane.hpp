@@ -17,6 +17,18 @@ namespace muro::lane {
 inline namespace MURO_ISA {
 
 /// Which of N values satisfy a condition.
+#if MURO_HAS_MASK_REGISTERS
+template <class T, int N>
+struct Mask {
+  using Bits = std::conditional_t<(N > 8), __mmask16, __mmask8>;
+  static constexpr unsigned all = (1u << N) - 1;
+  Bits v;
+
+  MURO_INLINE Mask operator&(Mask b) const { return {Bits(v & b.v)}; }
+  MURO_INLINE Mask operator|(Mask b) const { return {Bits(v | b.v)}; }
+  MURO_INLINE Mask operator!() const { return {Bits(~v & all)}; }
+};
+#else
 template <class T, int N>
 struct Mask {
   using Vector = decltype(std::declval<typename vectors::VectorOf<T, N>::Type>() <
@@ -27,6 +39,7 @@ struct Mask {
   MURO_INLINE Mask operator|(Mask b) const { return {v | b.v}; }
   MURO_INLINE Mask operator!() const { return {~v}; }
 };
+#endif
 
 /// N values of T.
 template <class T, int N>
@@ -49,11 +62,24 @@ struct Lane {
   MURO_INLINE friend Lane operator-(Lane a, Lane b) { return a.v - b.v; }
   MURO_INLINE friend Lane operator*(Lane a, Lane b) { return a.v * b.v; }
   MURO_INLINE friend Lane operator/(Lane a, Lane b) { return a.v / b.v; }
+#if MURO_HAS_MASK_REGISTERS
+  using Comparison = vectors::Comparison;
+  template <Comparison c>
+  MURO_INLINE static M compare(Lane a, Lane b) {
+    return {typename M::Bits(vectors::compare<c>(a.v, b.v))};
+  }
+  MURO_INLINE friend M operator<(Lane a, Lane b) { return compare<Comparison::less>(a, b); }
+  MURO_INLINE friend M operator<=(Lane a, Lane b) { return compare<Comparison::less_or_equal>(a, b); }
+  MURO_INLINE friend M operator>(Lane a, Lane b) { return compare<Comparison::greater>(a, b); }
+  MURO_INLINE friend M operator>=(Lane a, Lane b) { return compare<Comparison::greater_or_equal>(a, b); }
+  MURO_INLINE friend M operator==(Lane a, Lane b) { return compare<Comparison::equal>(a, b); }
+#else
   MURO_INLINE friend M operator<(Lane a, Lane b) { return {a.v < b.v}; }
   MURO_INLINE friend M operator<=(Lane a, Lane b) { return {a.v <= b.v}; }
   MURO_INLINE friend M operator>(Lane a, Lane b) { return {a.v > b.v}; }
   MURO_INLINE friend M operator>=(Lane a, Lane b) { return {a.v >= b.v}; }
   MURO_INLINE friend M operator==(Lane a, Lane b) { return {a.v == b.v}; }
+#endif
 };
 
 using Double4 = Lane<double, 4>;
@@ -98,16 +124,26 @@ MURO_INLINE double select(bool m, double a, double b) { return m ? a : b; }
 MURO_INLINE float select(bool m, float a, float b) { return m ? a : b; }
 template <class T, int N>
 MURO_INLINE Lane<T, N> select(Mask<T, N> m, Lane<T, N> a, Lane<T, N> b) {
+#if MURO_HAS_MASK_REGISTERS
+  return vectors::choose_by_bits(m.v, a.v, b.v);
+#else
   return vectors::choose(m.v, a.v, b.v);
+#endif
 }
 /// The lesser; `b` where they are equal or one is NaN.
 template <class S>
 MURO_INLINE S min(S a, S b) {
+#if MURO_HAS_MASK_REGISTERS
+  if constexpr (count_of < S >> 1) return vectors::lesser(a.v, b.v);
+#endif
   return select(a < b, a, b);
 }
 /// The greater; `b` where they are equal or one is NaN.
 template <class S>
 MURO_INLINE S max(S a, S b) {
+#if MURO_HAS_MASK_REGISTERS
+  if constexpr (count_of < S >> 1) return vectors::greater(a.v, b.v);
+#endif
   return select(a > b, a, b);
 }
 MURO_INLINE double abs(double a) { return __builtin_fabs(a); }
@@ -121,7 +157,31 @@ MURO_INLINE Lane<T, N> abs(Lane<T, N> a) {
 MURO_INLINE unsigned bits(bool m) { return m; }
 template <class T, int N>
 MURO_INLINE unsigned bits(Mask<T, N> m) {
+#if MURO_HAS_MASK_REGISTERS
+  return m.v;
+#else
   return vectors::bits_of(m.v);
+#endif
+}
+/// The mask of values whose bits are set.
+template <class S>
+MURO_INLINE MaskOf<S> mask_of(unsigned set) {
+  if constexpr (count_of<S> == 1) {
+    return (set & 1) != 0;
+  } else {
+#if MURO_HAS_MASK_REGISTERS
+    return {typename MaskOf<S>::Bits(set)};
+#else
+    using Bits = typename MaskOf<S>::Vector;
+    using Whole = vectors::Element<Bits>;
+    alignas(64) static constexpr Whole bit_of[] = {1,       1 << 1,  1 << 2,  1 << 3, 1 << 4,  1 << 5,
+                                                   1 << 6,  1 << 7,  1 << 8,  1 << 9, 1 << 10, 1 << 11,
+                                                   1 << 12, 1 << 13, 1 << 14, 1 << 15};
+    Bits bit;
+    __builtin_memcpy(&bit, bit_of, sizeof bit);
+    return {(vectors::splat<Bits>(Whole(set)) & bit) == bit};
+#endif
+  }
 }
 template <class M>
 MURO_INLINE bool any(M m) {

@@ -54,6 +54,62 @@ MURO_INLINE Vector joined(const Part* parts) {
   }
 }
 
+#if MURO_HAS_MASK_REGISTERS
+using Eight = typename vectors::VectorOf<double, 8>::Type;
+
+/// The first and the second number of each of eight places. Pairs go into their quarters while they are loaded.
+MURO_INLINE void load_eight_pairs(const double* const* at, std::ptrdiff_t k, Eight& first, Eight& second) {
+  const auto quarters = [&](const double* const* from) {
+    __m512d v = _mm512_castpd128_pd512(_mm_loadu_pd(from[0] + k));
+    v = _mm512_mask_broadcast_f64x2(v, 0x0c, _mm_loadu_pd(from[2] + k));
+    v = _mm512_mask_broadcast_f64x2(v, 0x30, _mm_loadu_pd(from[4] + k));
+    return _mm512_mask_broadcast_f64x2(v, 0xc0, _mm_loadu_pd(from[6] + k));
+  };
+  const __m512d even = quarters(at), odd = quarters(at + 1);
+  first = Eight(_mm512_unpacklo_pd(even, odd));
+  second = Eight(_mm512_unpackhi_pd(even, odd));
+}
+/// Two numbers to each of eight places.
+MURO_INLINE void store_eight_pairs(double* const* at, std::ptrdiff_t k, const Eight& first, const Eight& second) {
+  const auto quarters = [&](double* const* to, __m512d v) {
+    _mm_storeu_pd(to[0] + k, _mm512_castpd512_pd128(v));
+    _mm_storeu_pd(to[2] + k, _mm512_extractf64x2_pd(v, 1));
+    _mm_storeu_pd(to[4] + k, _mm512_extractf64x2_pd(v, 2));
+    _mm_storeu_pd(to[6] + k, _mm512_extractf64x2_pd(v, 3));
+  };
+  quarters(at, _mm512_unpacklo_pd(__m512d(first), __m512d(second)));
+  quarters(at + 1, _mm512_unpackhi_pd(__m512d(first), __m512d(second)));
+}
+/// Four numbers to each of eight places.
+MURO_INLINE void store_eight_fours(double* const* at, std::ptrdiff_t k, const Eight& a, const Eight& b, const Eight& c,
+                                   const Eight& d) {
+  const auto halves = [&](double* const* to, __m512d first, __m512d last) {
+    const __m512d low = _mm512_permutex2var_pd(first, _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), last);
+    const __m512d high = _mm512_permutex2var_pd(first, _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15), last);
+    _mm256_storeu_pd(to[0] + k, _mm512_castpd512_pd256(low));
+    _mm256_storeu_pd(to[2] + k, _mm512_extractf64x4_pd(low, 1));
+    _mm256_storeu_pd(to[4] + k, _mm512_castpd512_pd256(high));
+    _mm256_storeu_pd(to[6] + k, _mm512_extractf64x4_pd(high, 1));
+  };
+  halves(at, _mm512_unpacklo_pd(__m512d(a), __m512d(b)), _mm512_unpacklo_pd(__m512d(c), __m512d(d)));
+  halves(at + 1, _mm512_unpackhi_pd(__m512d(a), __m512d(b)), _mm512_unpackhi_pd(__m512d(c), __m512d(d)));
+}
+/// Numbers k to n - 1 of each of eight places.
+template <int k, int n, class S>
+MURO_INLINE void store_eight_from(const Places<S, double>& to, std::ptrdiff_t first, const S (&from)[n]) {
+  constexpr int left = n - k, at = left == 3 && n > 3 ? k - 1 : k;  // rather one number twice than two pieces
+  if constexpr (n - at >= 4) {
+    store_eight_fours(to.at, first + at, from[at].v, from[at + 1].v, from[at + 2].v, from[at + 3].v);
+    store_eight_from<at + 4, n, S>(to, first, from);
+  } else if constexpr (left >= 2) {
+    store_eight_pairs(to.at, first + k, from[k].v, from[k + 1].v);
+    store_eight_from<k + 2, n, S>(to, first, from);
+  } else if constexpr (left == 1) {
+    for (int i = 0; i < 8; ++i) to.at[i][first + k] = from[k][i];
+  }
+}
+#endif
+
 /// The first and the second number of each place of a group.
 MURO_INLINE void load_pairs(const double* const* at, std::ptrdiff_t k, Group& first, Group& second) {
 #if defined(__AVX__)
@@ -142,6 +198,12 @@ template <int n, class S>
 MURO_INLINE void load_rows(const Places<S>& from, std::ptrdiff_t first, S (&to)[n]) {
   if constexpr (detail::has_groups<S>) {
     for (int k = 0; k + 1 < n; k += 2) {
+#if MURO_HAS_MASK_REGISTERS
+      if constexpr (count_of<S> == 8) {
+        detail::load_eight_pairs(from.at, first + k, to[k].v, to[k + 1].v);
+        continue;
+      }
+#endif
       constexpr int groups = detail::groups_of<S>;
       detail::Group a[groups], b[groups];
       for (int g = 0; g < groups; ++g) detail::load_pairs(from.at + g * detail::group, first + k, a[g], b[g]);
@@ -165,6 +227,10 @@ MURO_INLINE void store_rows(const Places<S, double>& to, std::ptrdiff_t first, c
                             unsigned which = all_lanes<S>) {
   if constexpr (detail::has_groups<S>) {
     constexpr std::make_integer_sequence<int, detail::groups_of<S>> groups;
+#if MURO_HAS_MASK_REGISTERS
+    if constexpr (count_of<S> == 8)
+      if (which == all_lanes<S>) return detail::store_eight_from<0, n, S>(to, first, from);
+#endif
     if (which == all_lanes<S>)  // without a question for each place
       detail::store_groups<n, S>(to, first, from, all_lanes<S>, groups);
     else

@@ -14,6 +14,12 @@
 #define MURO_ISA base
 #endif
 #define MURO_INLINE [[gnu::always_inline]] inline
+/// Whether comparisons give bits in registers of their own.
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+#define MURO_HAS_MASK_REGISTERS 1
+#else
+#define MURO_HAS_MASK_REGISTERS 0
+#endif
 
 namespace muro::lane {
 inline namespace MURO_ISA {
@@ -121,6 +127,71 @@ MURO_INLINE Vector gather(const Element<Vector>* const* at, std::ptrdiff_t k) {
     return gather_into<Vector>(at, k, std::make_integer_sequence<int, length_of<Vector>>());
   }
 }
+#if MURO_HAS_MASK_REGISTERS
+/// How two values compare; the numbers are those of the instruction set, for floating-point and whole numbers.
+enum class Comparison { less, less_or_equal, greater, greater_or_equal, equal };
+
+/// Bit i: whether element i of `a` compares so with that of `b`.
+template <Comparison c, class Vector>
+MURO_INLINE unsigned compare(const Vector& a, const Vector& b) {
+  constexpr int real[] = {_CMP_LT_OS, _CMP_LE_OS, _CMP_GT_OS, _CMP_GE_OS, _CMP_EQ_OQ};
+  constexpr int whole[] = {_MM_CMPINT_LT, _MM_CMPINT_LE, _MM_CMPINT_NLE, _MM_CMPINT_NLT, _MM_CMPINT_EQ};
+  using T = Element<Vector>;
+  if constexpr (std::is_same_v<T, double>) {
+    if constexpr (sizeof a == 64) return _mm512_cmp_pd_mask(__m512d(a), __m512d(b), real[int(c)]);
+    if constexpr (sizeof a == 32) return _mm256_cmp_pd_mask(__m256d(a), __m256d(b), real[int(c)]);
+    if constexpr (sizeof a == 16) return _mm_cmp_pd_mask(__m128d(a), __m128d(b), real[int(c)]);
+  } else if constexpr (std::is_same_v<T, float>) {
+    if constexpr (sizeof a == 64) return _mm512_cmp_ps_mask(__m512(a), __m512(b), real[int(c)]);
+    if constexpr (sizeof a == 32) return _mm256_cmp_ps_mask(__m256(a), __m256(b), real[int(c)]);
+    if constexpr (sizeof a == 16) return _mm_cmp_ps_mask(__m128(a), __m128(b), real[int(c)]);
+  } else {
+    static_assert(sizeof(T) == 4 && sizeof a == 64);
+    return _mm512_cmp_epi32_mask(__m512i(a), __m512i(b), whole[int(c)]);
+  }
+}
+/// `a` where the bit is set, `b` elsewhere.
+template <class Vector>
+MURO_INLINE Vector choose_by_bits(unsigned bits, const Vector& a, const Vector& b) {
+  using T = Element<Vector>;
+  if constexpr (std::is_same_v<T, double>) {
+    if constexpr (sizeof a == 64) return Vector(_mm512_mask_blend_pd(__mmask8(bits), __m512d(b), __m512d(a)));
+    if constexpr (sizeof a == 32) return Vector(_mm256_mask_blend_pd(__mmask8(bits), __m256d(b), __m256d(a)));
+    if constexpr (sizeof a == 16) return Vector(_mm_mask_blend_pd(__mmask8(bits), __m128d(b), __m128d(a)));
+  } else if constexpr (std::is_same_v<T, float>) {
+    if constexpr (sizeof a == 64) return Vector(_mm512_mask_blend_ps(__mmask16(bits), __m512(b), __m512(a)));
+    if constexpr (sizeof a == 32) return Vector(_mm256_mask_blend_ps(__mmask8(bits), __m256(b), __m256(a)));
+    if constexpr (sizeof a == 16) return Vector(_mm_mask_blend_ps(__mmask8(bits), __m128(b), __m128(a)));
+  } else {
+    static_assert(sizeof(T) == 4 && sizeof a == 64);
+    return Vector(_mm512_mask_blend_epi32(__mmask16(bits), __m512i(b), __m512i(a)));
+  }
+}
+/// The lesser and the greater; `b` where they are equal or one is NaN.
+template <class Vector>
+MURO_INLINE Vector lesser(const Vector& a, const Vector& b) {
+  if constexpr (std::is_same_v<Element<Vector>, double> && sizeof a == 64)
+    return Vector(_mm512_min_pd(__m512d(a), __m512d(b)));
+  else if constexpr (std::is_same_v<Element<Vector>, double> && sizeof a == 32)
+    return Vector(_mm256_min_pd(__m256d(a), __m256d(b)));
+  else if constexpr (std::is_same_v<Element<Vector>, float> && sizeof a == 64)
+    return Vector(_mm512_min_ps(__m512(a), __m512(b)));
+  else
+    return choose_by_bits(compare<Comparison::less>(a, b), a, b);
+}
+template <class Vector>
+MURO_INLINE Vector greater(const Vector& a, const Vector& b) {
+  if constexpr (std::is_same_v<Element<Vector>, double> && sizeof a == 64)
+    return Vector(_mm512_max_pd(__m512d(a), __m512d(b)));
+  else if constexpr (std::is_same_v<Element<Vector>, double> && sizeof a == 32)
+    return Vector(_mm256_max_pd(__m256d(a), __m256d(b)));
+  else if constexpr (std::is_same_v<Element<Vector>, float> && sizeof a == 64)
+    return Vector(_mm512_max_ps(__m512(a), __m512(b)));
+  else
+    return choose_by_bits(compare<Comparison::greater>(a, b), a, b);
+}
+#endif
+
 /// `a` where the mask (of integers) is set, `b` elsewhere.
 template <class Mask, class Vector>
 MURO_INLINE Vector choose(const Mask& m, const Vector& a, const Vector& b) {
@@ -146,10 +217,6 @@ MURO_INLINE unsigned bits_of(const Mask& m) {
     return bits_of(m.low) | bits_of(m.high) << length_of<Mask> / 2;
   } else {
     [[maybe_unused]] constexpr bool eight_bytes = sizeof(Element<Mask>) == 8;
-#if defined(__AVX512DQ__)
-    if constexpr (sizeof m == 64 && eight_bytes) return _mm512_movepi64_mask(__m512i(m));
-    if constexpr (sizeof m == 64 && !eight_bytes) return _mm512_movepi32_mask(__m512i(m));
-#endif
 #if defined(__AVX__)
     if constexpr (sizeof m == 32 && eight_bytes) return unsigned(_mm256_movemask_pd(__m256d(m)));
     if constexpr (sizeof m == 32 && !eight_bytes) return unsigned(_mm256_movemask_ps(__m256(m)));

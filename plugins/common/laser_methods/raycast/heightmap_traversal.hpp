@@ -59,7 +59,7 @@ class GroundRays {
     along_ = {u * pace * F(per_block), v * pace * F(per_block), z * pace};
     at_ = next_ = F(0), window_ = F(lane::min(8.0f, float(g.field.widest)));
     near_ = 0;
-    active_ = mask_of(~signs(end_) & all_signs);
+    active_ = lane::mask_of<F>(~signs(end_) & all_signs);
   }
 
   /// A window further. Whether all rays are near the surface, or have left the map.
@@ -118,7 +118,7 @@ class GroundRays {
     }
     at_ = next_;
     near_ = 0;
-    active_ = mask_of(on) & (next_ < end_);
+    active_ = lane::mask_of<F>(on) & (next_ < end_);
     return lane::any(active_);
   }
 

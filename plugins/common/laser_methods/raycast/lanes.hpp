@@ -82,15 +82,6 @@ MURO_INLINE void store(typename lane::Traits<S>::Value* to, S value) {
   detail::store_at<typename S::Vector>(to, value.v);
 }
 
-/// The values whose bits are set.
-MURO_INLINE lane::Mask<float, 16> mask_of(unsigned bits) {
-  alignas(64) static constexpr std::int32_t bit_of[16] = {1,       1 << 1,  1 << 2,  1 << 3, 1 << 4,  1 << 5,
-                                                          1 << 6,  1 << 7,  1 << 8,  1 << 9, 1 << 10, 1 << 11,
-                                                          1 << 12, 1 << 13, 1 << 14, 1 << 15};
-  const I::Vector bit = load<I>(bit_of).v;
-  return {(I(std::int32_t(bits)).v & bit) == bit};
-}
-
 /// Towards zero.
 MURO_INLINE I truncated(F a) { return detail::converted<I::Vector>(a.v); }
 MURO_INLINE F to_floats(I a) { return detail::converted<F::Vector>(a.v); }
