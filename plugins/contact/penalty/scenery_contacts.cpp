@@ -68,6 +68,7 @@ void SceneryContacts::start() {
   identities_.resize(bodies_.robots.size());
   contacts_.resize(bodies_.robots.size());
   remaining_.assign(bodies_.robots.size(), 1);
+  patterns_.clear();
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const Robot& r = bodies_.robots[i];
     KnownRobot& known = robots_[i];
@@ -75,18 +76,17 @@ void SceneryContacts::start() {
     known.list = r.contacts, known.anchors = r.anchors;
     known.world = r.world.get(), known.lag = r.is_single_body ? r.lag.get() : nullptr;
     known.is_one_link = r.is_one_link, known.may_resist_turning = bool(r.turning_springs);
-    known.view.contacts = contacts_[i].data();
-    known.view.in_order = true;
-    known.view.base_pose = base.pose->position.data();
-    known.view.base_twist = base.twist->linear.data();
-    known.view.mass = &bodies_.masses[base.mass].inverse_mass;
-    known.view.wrench = base.wrench->force.data();
+    known.lasting.contacts = contacts_[i].data();
+    known.lasting.base_pose = base.pose->position.data();
+    known.lasting.base_twist = base.twist->linear.data();
+    known.lasting.mass = &bodies_.masses[base.mass].inverse_mass;
+    known.lasting.wrench = base.wrench->force.data();
   }
 }
 
 bool SceneryContacts::knows(std::uint32_t robot, std::span<const Contact> now) const {
   const Identities& identities = identities_[robot];
-  if (now.size() != robots_[robot].contacts) return false;
+  if (now.size() != robots_[robot].lasting.count) return false;
   bool same = true;
   for (std::size_t i = 0; i < now.size(); ++i)
     same = same && both(&now[i].self) == identities[i].bodies && both(&now[i].self_shape) == identities[i].shapes;
@@ -114,11 +114,9 @@ void SceneryContacts::fetch(std::uint32_t robot) const {
   };
   fetch_lines((*known.list).data(), contacts * sizeof(Contact));
   fetch_lines((*known.anchors).data(), contacts * sizeof(FrictionAnchor));
-  const KernelContacts& before = contacts_[robot];  // their bodies lie side by side
-  if (known.contacts == 0) return;
-  fetch_lines(before.data(), contacts * sizeof(KernelContact));
-  fetch_lines(before[0].pose, bodies * sizeof(Pose));
-  fetch_lines(before[0].twist, bodies * sizeof(Twist));
+  if (known.lasting.count == 0) return;
+  fetch_lines(known.lasting.pose, bodies * sizeof(Pose));  // they lie side by side
+  fetch_lines(known.lasting.twist, bodies * sizeof(Twist));
 }
 
 void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t robot, Queues& queues) {
@@ -147,7 +145,7 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
     remaining_[robot] = 1;
     return;
   }
-  if (known.list.revision() != known.revision || contacts.size() != known.contacts) {
+  if (known.list.revision() != known.revision || contacts.size() != known.lasting.count) {
     if (!knows(robot, contacts)) analyse(robot, contacts);
     known.revision = known.list.revision();
   }
@@ -161,7 +159,7 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
   if (known.was_in_impact && !(known.anchors_match && is_one_patch(contacts))) return process_single(context, robot);
   known.was_in_impact = false;
   if (!known.anchors_match) return enqueue_changed(context, robot, queues);
-  Queue& q = queues.of(known.contacts, known.view.groups);
+  Queue& q = queues.of(known.lasting.count, known.lasting.groups);
   q.robots[q.count++] = robot;
   if (q.count == 8) process_queue(context, q);
 }
@@ -170,7 +168,7 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
 bool SceneryContacts::touches_robots(std::uint32_t robot, std::span<const Contact> contacts) {
   KnownRobot& known = robots_[robot];
   if (known.list.revision() != known.robots_revision || contacts.size() != known.robots_length) {
-    known.robots_revision = known.list.revision(), known.robots_length = contacts.size();
+    known.robots_revision = known.list.revision(), known.robots_length = std::uint32_t(contacts.size());
     known.touches_robots =
         std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) { return bodies_.moves(c.other); });
   }
@@ -186,44 +184,47 @@ void SceneryContacts::forget_turning(std::uint32_t robot) const {
 
 void SceneryContacts::analyse(std::uint32_t robot, std::span<const Contact> contacts) {
   KnownRobot& known = robots_[robot];
-  known.contacts = 0;
+  LastingContacts& lasting = known.lasting;
+  lasting.count = 0;
   known.anchors_match = false;
   known.only_scenery =
       contacts.size() <= max_contacts && std::none_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
         return bodies_.moves(c.other) || c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0;
       });
   if (!known.only_scenery) return;
-  KernelRobot& view = known.view;
-  view.groups = 0;
-  view.has_many_materials = view.has_many_objects = view.rolls = false;
+  lasting.groups = 0;
+  lasting.has_many_materials = lasting.has_many_objects = lasting.rolls = false;
   std::uint8_t first = 0, objects = 0;
   std::uint32_t object_models[max_contacts];
   for (const Contact& c : contacts) {
-    const auto k = std::uint8_t(known.contacts++);
+    const auto k = lasting.count++;
     Identity& identity = identities_[robot][k];
     identity = {both(&c.self), both(&c.self_shape), bodies_.pair_of(c)};
     if (k == 0 || identity.pair != identities_[robot][k - 1u].pair) {
       first = k;
-      view.groups |= 1u << k;
+      lasting.groups |= 1u << k;
     }
     const std::uint32_t model = bodies_[c.other].model;
     const auto object = std::uint8_t(std::find(object_models, object_models + objects, model) - object_models);
     if (object == objects) object_models[objects++] = model;
     KernelContact& known_contact = contacts_[robot][k];
-    known_contact = {.pose = bodies_[c.self].pose->position.data(),
-                     .twist = bodies_[c.self].twist->linear.data(),
+    const double *const pose = bodies_[c.self].pose->position.data(), *const twist =
+                                                                          bodies_[c.self].twist->linear.data();
+    if (k == 0) lasting.pose = pose, lasting.twist = twist;
+    known_contact = {.pose = pose - lasting.pose,
+                     .twist = twist - lasting.twist,
                      .zeta = bodies_.materials[bodies_.material_of(c.surface.restitution)].damping_ratio,
                      .place = k,
                      .anchor = k,
                      .anchors_begin = first,
                      .object = object,
                      .is_of_disc = bodies_.is_of_disc(c)};
-    view.rolls = view.rolls || known_contact.twist == view.base_twist;
+    lasting.rolls = lasting.rolls || twist == lasting.base_twist;
     for (std::uint8_t i = first; i <= k; ++i) contacts_[robot][i].anchors_end = std::uint8_t(k + 1);
-    view.has_many_materials = view.has_many_materials || known_contact.zeta != contacts_[robot][0].zeta;
+    lasting.has_many_materials = lasting.has_many_materials || known_contact.zeta != contacts_[robot][0].zeta;
   }
-  view.has_many_objects = objects > 1;
-  view.count = int(known.contacts);
+  lasting.has_many_objects = objects > 1;
+  lasting.contacts = patterns_.shared({contacts_[robot].data(), lasting.count});
 }
 
 KernelBatch SceneryContacts::batch_of(const StepContext& context) const {
@@ -239,7 +240,8 @@ void SceneryContacts::process_queue(const StepContext& context, Queue& q) {
   const KernelRobot* all[8];
   for (std::uint32_t i = 0; i < q.count; ++i) {
     const KnownRobot& known = robots_[q.robots[i]];
-    KernelRobot& view = views[i] = known.view;
+    KernelRobot& view = views[i] = {known.lasting};
+    view.in_order = true;
     view.listed = (*known.list)[0].point.data();
     view.before = view.anchors = (*known.anchors)[0].point.data();
     if (view.rolls) {
@@ -276,7 +278,7 @@ void SceneryContacts::process_rest(const StepContext& context, Queues& queues) {
 void SceneryContacts::make_plan(std::uint32_t robot, std::uint32_t which, Plan& plan) const {
   std::uint64_t pair = 0;
   std::size_t begin = 0;
-  for (std::uint32_t k = 0; k < robots_[robot].contacts; ++k) {
+  for (std::uint32_t k = 0; k < robots_[robot].lasting.count; ++k) {
     if (!(which >> k & 1)) continue;
     const std::uint64_t own = identities_[robot][k].pair;
     if (plan.count == 0 || own != pair) {
@@ -298,11 +300,10 @@ void SceneryContacts::make_plan(std::uint32_t robot, std::uint32_t which, Plan& 
 /// For anchors that have a place in the list already.
 KernelRobot SceneryContacts::view_of(std::uint32_t robot, const Plan& plan) const {
   const KnownRobot& known = robots_[robot];
-  KernelRobot view = known.view;
-  view.count = plan.count;
+  KernelRobot view{known.lasting};
+  view.count = std::uint8_t(plan.count);
   view.contacts = plan.contacts;
   view.groups = plan.groups;
-  view.in_order = false;
   view.listed = (*known.list)[0].point.data();
   view.before = plan.before[0].point.data();
   view.anchors = (*known.anchors)[0].point.data();
@@ -335,7 +336,8 @@ void SceneryContacts::process_changed(const StepContext& context, Queues& queues
     const std::uint32_t robot = q.robots[i];
     KnownRobot& known = robots_[robot];
     known.anchors.clear();
-    for (std::uint32_t k = 0; k < known.contacts; ++k) known.anchors.push_back({.pair = identities_[robot][k].pair});
+    for (std::uint32_t k = 0; k < known.lasting.count; ++k)
+      known.anchors.push_back({.pair = identities_[robot][k].pair});
     known.anchors_match = true;
     views[i] = view_of(robot, queues.plan(i));
     views[i].is_changed = true;
@@ -407,7 +409,7 @@ void SceneryContacts::process_single(const StepContext& context, std::uint32_t r
   make_plan(robot, ~impacts, plan);
   const bool parts = find_overlaps(context, robot, plan, overlaps);
   known.anchors.clear();
-  for (std::uint32_t k = 0; k < known.contacts; ++k) {
+  for (std::uint32_t k = 0; k < known.lasting.count; ++k) {
     const std::uint64_t pair = identities_[robot][k].pair;
     if (impacts >> k & 1)
       known.anchors.push_back(anchor_of_impact(pair));
@@ -426,7 +428,7 @@ void SceneryContacts::process_single(const StepContext& context, std::uint32_t r
 void SceneryContacts::find_match(std::uint32_t robot) {
   KnownRobot& known = robots_[robot];
   const auto all = *known.anchors;
-  known.anchors_match = all.size() == known.contacts;
+  known.anchors_match = all.size() == known.lasting.count;
   for (std::size_t k = 0; k < all.size() && known.anchors_match; ++k)
     known.anchors_match = all[k].pair == identities_[robot][k].pair;
   const auto details = known.anchors.details();

@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "contact_patterns.hpp"
 #include "impact.hpp"
 #include "scenery_kernel.hpp"
 
@@ -30,24 +31,24 @@ class SceneryContacts {
   using KernelContacts = std::array<KernelContact, max_contacts>;
   /// What is known of a robot and its contacts from earlier steps, so that the same contacts are not analysed again.
   /// Results depend on contacts and anchors alone.
-  struct KnownRobot {
+  struct alignas(64) KnownRobot {
     ListIn<Contact> list;
     Anchors anchors;
-    KernelRobot view;                      ///< without addresses of contacts and anchors
+    LastingContacts lasting;               ///< `count`: known
     std::uint64_t revision = 0;            ///< of the list of contacts, when it was last seen
-    std::uint32_t contacts = 0;            ///< known
     const std::uint64_t* world = nullptr;  ///< see keys::contact_world
     const double* lag = nullptr;           ///< see keys::twist_lag; null: forces move its bodies one by one
     std::uint64_t robots_revision = ~std::uint64_t{0};  ///< of the list, when it was last looked at for robots
-    std::size_t robots_length = 0;                      ///< the same
-    bool touches_robots = false;
-    bool is_one_link = false, may_resist_turning = false;
-    bool is_clear = false;  ///< no wrench acts on it, and it has no anchors
-    bool only_scenery = false;
-    bool anchors_match = false;  ///< the robot has an anchor for each contact, in their order
-    bool is_parting = false;     ///< some anchor has an overlap
-    bool was_in_impact = false;  ///< some anchor is that of an impact
+    std::uint32_t robots_length = 0;                    ///< the same
+    bool touches_robots : 1 = false;
+    bool is_one_link : 1 = false, may_resist_turning : 1 = false;
+    bool is_clear : 1 = false;  ///< no wrench acts on it, and it has no anchors
+    bool only_scenery : 1 = false;
+    bool anchors_match : 1 = false;  ///< the robot has an anchor for each contact, in their order
+    bool is_parting : 1 = false;     ///< some anchor has an overlap
+    bool was_in_impact : 1 = false;  ///< some anchor is that of an impact
   };
+  static_assert(sizeof(KnownRobot) == 128);  // two lines of the cache
   /// Robots whose contacts are alike, until they fill the SIMD lanes.
   struct Queue {
     std::uint32_t count;
@@ -83,6 +84,7 @@ class SceneryContacts {
   std::vector<KnownRobot> robots_;        ///< as Bodies::robots
   std::vector<Identities> identities_;    ///< of the contacts that they know
   std::vector<KernelContacts> contacts_;  ///< the same
+  ContactPatterns patterns_;              ///< those of contacts_ that several robots have
   std::vector<std::uint8_t> remaining_;
 };
 

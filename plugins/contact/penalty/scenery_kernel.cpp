@@ -20,7 +20,7 @@ class RobotContacts {
   /// Where there are fewer robots than S has values, the first stands in.
   MURO_INLINE RobotContacts(const KernelBatch& batch, const KernelRobot* const* robots, int count)
       : batch_(batch), robots_(robots), number_(count), used_(first_lanes(count)) {
-    Places<S> poses, masses;
+    Places<S> base_poses, masses;
     double counts[count_of<S>];
     unsigned rolling = 0;
     least_ = max_contacts;
@@ -39,7 +39,9 @@ class RobotContacts {
       listed_.at[i] = r.listed, before_.at[i] = r.before;
       anchors_.at[i] = r.anchors, wrench_.at[i] = r.wrench, forces_.at[i] = r.forces;
       ways_before_.at[i] = r.rolls ? r.ways_before : r.listed, ways_.at[i] = r.ways;
-      poses.at[i] = r.base_pose, masses.at[i] = r.mass;
+      base_poses.at[i] = r.base_pose, masses.at[i] = r.mass;
+      poses_.at[i] = r.pose, twists_.at[i] = r.twist;
+      one_pattern_ = one_pattern_ && r.contacts == robots[0]->contacts;
     }
     is_uniform_ = is_uniform_ && in_order_;
     count_ = side_by_side(counts);
@@ -50,7 +52,7 @@ class RobotContacts {
       for (int k = 0; k < mass_numbers; ++k) mass[k] = S(masses.at[0][k]);
     else
       load_rows(masses, 0, mass);
-    const PoseOf<S> pose = load_pose(poses);
+    const PoseOf<S> pose = load_pose(base_poses);
     body_ = mobility_of(mass, pose);
     base_ = pose.position;
     if (rolling != 0) find_drift(rolling);
@@ -147,6 +149,7 @@ class RobotContacts {
   /// A number of each robot's contact k.
   template <class Number>
   MURO_INLINE S of_contacts(int k, const Number& number) const {
+    if (one_pattern_ && k < least_) return S(double(number(contacts_[0][k])));
     double v[count_of<S>];
     each_contact(k, [&](int i, const KernelContact& c) { v[i] = double(number(c)); });
     return side_by_side(v);
@@ -329,8 +332,15 @@ class RobotContacts {
   MURO_INLINE void find_end_and_bodies(Run& run) const {
     run.end = run.begin + 1;
     while (is_joined(run.end)) ++run.end;
-    each_contact(run.begin,
-                 [&](int i, const KernelContact& c) { run.poses.at[i] = c.pose, run.twists.at[i] = c.twist; });
+    if (one_pattern_ && run.begin < least_) {
+      const KernelContact& c = contacts_[0][run.begin];
+      for (int i = 0; i < count_of<S>; ++i)
+        run.poses.at[i] = poses_.at[i] + c.pose, run.twists.at[i] = twists_.at[i] + c.twist;
+    } else {
+      each_contact(run.begin, [&](int i, const KernelContact& c) {
+        run.poses.at[i] = poses_.at[i] + c.pose, run.twists.at[i] = twists_.at[i] + c.twist;
+      });
+    }
   }
   MURO_INLINE void find_anchors(Run& run) const {
     run.most_anchors = run.end - run.begin;
@@ -669,6 +679,8 @@ class RobotContacts {
   bool in_order_ = true, has_many_materials_ = false, has_many_objects_ = false;
   bool is_uniform_ = true;  ///< robots are in order, and have equal groups, which have the anchors of their contacts
   const KernelContact* contacts_[count_of<S>];
+  bool one_pattern_ = true;   ///< they are all the same
+  Places<S> poses_, twists_;  ///< of the bodies of their first contacts
   int last_[count_of<S>];
   int least_ = 0, most_ = 0;  ///< contacts that a robot has
   S count_;                   ///< of contacts of each

@@ -16,25 +16,35 @@ inline constexpr int max_contacts = 32;
 
 /// What does not change while a contact lasts.
 struct KernelContact {
-  const double *pose = nullptr, *twist = nullptr;   ///< of its body
+  std::ptrdiff_t pose = 0, twist = 0;               ///< of its body, from those of the first, in numbers
   double zeta = 0;                                  ///< damping ratio of the normal
   std::uint8_t place = 0;                           ///< in the list of the robot's contacts
   std::uint8_t anchor = 0;                          ///< place of its friction anchor, out
   std::uint8_t anchors_begin = 0, anchors_end = 0;  ///< those of its group, of the step before
   std::uint8_t object = 0;                          ///< of the scenery: its number among those that the robot touches
   bool is_of_disc = false;                          ///< where it touches flat, it is a point of a rim
+
+  friend bool operator==(const KernelContact&, const KernelContact&) = default;
 };
 
-/// One robot. A group: adjacent contacts of one shape of one body with one other shape. Contacts and anchors are read
-/// and written as numbers: see the offsets below.
-struct KernelRobot {
-  int count = 0;                            ///< of contacts, at least one
+/// What does not change while the contacts of a robot last. A group: adjacent contacts of one shape of one body with
+/// one other shape.
+struct LastingContacts {
   const KernelContact* contacts = nullptr;  ///< the first
   std::uint32_t groups = 0;                 ///< bit k: contact k is the first of a group
-  bool in_order = false;            ///< contact k has place k, and so has its anchor, also that of the step before
-  bool has_many_materials = false;  ///< zeta differs
+  std::uint8_t count = 0;                   ///< of contacts, at least one
+  bool has_many_materials = false;          ///< zeta differs
   bool has_many_objects = false;
-  bool rolls = false;              ///< some contacts are on the base itself and may move over it, as on a rim
+  bool rolls = false;  ///< some contacts are on the base itself and may move over it, as on a rim
+  const double *pose = nullptr, *twist = nullptr;  ///< of the body of the first contact
+  const double *base_pose = nullptr, *base_twist = nullptr;
+  const double* mass = nullptr;  ///< numbers of MassProperties
+  double* wrench = nullptr;      ///< on the base; out
+};
+
+/// One robot. Contacts and anchors are read and written as numbers: see the offsets below.
+struct KernelRobot : LastingContacts {
+  bool in_order = false;           ///< contact k has place k, and so has its anchor, also that of the step before
   bool is_changed = false;         ///< some contacts may be new, and impacts
   const double* listed = nullptr;  ///< point of the first listed contact
   const double* before = nullptr;  ///< point of the first anchor of the step before; may be `anchors`
@@ -43,9 +53,6 @@ struct KernelRobot {
   /// out.
   const double* ways_before = nullptr;
   double* ways = nullptr;
-  const double *base_pose = nullptr, *base_twist = nullptr;
-  const double* mass = nullptr;  ///< numbers of MassProperties
-  double* wrench = nullptr;      ///< on the base; out
   double* forces = nullptr;  ///< force and torque of the first of `contacts`; out, where KernelBatch::tells_contacts
 };
 inline constexpr int contact_stride = 13, anchor_stride = 7, way_stride = 4, force_stride = 14;  ///< in numbers

@@ -53,8 +53,8 @@ struct Vehicle {
     for (std::size_t b = 0; b < 4; ++b) ends[b] = end += anchors_before[b];
     for (std::size_t k = 0; k < std::size_t(count); ++k) {
       const std::size_t body = body_of(k);
-      known[k] = {.pose = bodies[body].position.data(),
-                  .twist = twists[body].linear.data(),
+      known[k] = {.pose = bodies[body].position.data() - bodies[0].position.data(),
+                  .twist = twists[body].linear.data() - twists[0].linear.data(),
                   .zeta = damping_ratio_of(contacts[k].surface.restitution),
                   .place = std::uint8_t(k),
                   .anchor = std::uint8_t(k),
@@ -64,7 +64,7 @@ struct Vehicle {
                   .is_of_disc = has_discs};
       if (k == 0 || body_of(k - 1) != body) v.groups |= 1u << k;
     }
-    v.count = count;
+    v.count = std::uint8_t(count);
     v.contacts = known;
     v.has_many_materials = v.has_many_objects = true;
     v.is_changed = is_changed;
@@ -74,6 +74,8 @@ struct Vehicle {
     v.anchors = anchors[0].point.data();
     v.ways_before = details_before[0].way.data();
     v.ways = details[0].way.data();
+    v.pose = bodies[0].position.data();
+    v.twist = twists[0].linear.data();
     v.base_pose = base.position.data();
     v.base_twist = twist.linear.data();
     v.mass = &mass->inverse_mass;
