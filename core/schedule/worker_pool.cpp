@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/c_locale.hpp"
+#include "core/schedule/timeline.hpp"
 
 namespace muro {
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr auto spin_limit = std::chrono::microseconds(150);  // of a worker before it sleeps
 constexpr unsigned yield_limit = 1024;                       // spins of the caller before it lets others run
+constexpr std::uint64_t patience_part = 4;                   // of the time that a share took: before others are helped
 constexpr unsigned clock_interval = 64;  // spins between looks at the clock: one takes as long as a few of them
 
 void relax() {
@@ -29,7 +31,7 @@ constexpr std::uint64_t packed(std::uint32_t round, std::uint32_t end, std::uint
 
 }  // namespace
 
-WorkerPool::WorkerPool(unsigned threads) {
+WorkerPool::WorkerPool(unsigned threads) : shares_(std::max(1u, threads)) {
   threads_.reserve(threads);
   try {
     for (unsigned t = 1; t < threads; ++t) threads_.emplace_back([this, t] { serve(t); });
@@ -40,7 +42,9 @@ WorkerPool::WorkerPool(unsigned threads) {
 
 WorkerPool::~WorkerPool() {
   quit_.store(true, std::memory_order_relaxed);
-  round_.fetch_add(1);
+  const std::uint32_t last = round_.load(std::memory_order_relaxed) + 1;
+  for (Share& s : shares_) s.state.store(packed(last, 0, 0), std::memory_order_release);
+  round_.store(last);
   round_.notify_all();
   for (std::thread& t : threads_) t.join();
 }
@@ -51,38 +55,66 @@ void WorkerPool::run(std::uint32_t items, Work work, void* owner, const void* ba
 }
 
 void WorkerPool::run_round(std::uint32_t first, std::uint32_t items, Work work, void* owner, const void* batch) {
-  const std::uint32_t round = round_.load(std::memory_order_relaxed) + 1;
+  const std::uint32_t round = round_.load(std::memory_order_relaxed) + 1, count = threads();
   undone_.store(items, std::memory_order_relaxed);
-  queue_.first = first;
-  queue_.work = work;
-  queue_.owner = owner;
-  queue_.batch = batch;
-  // The caller has its first item at once, while all of this reaches the others.
-  queue_.state.store(packed(round, items, 1), std::memory_order_release);
+  const auto begin_of = [&](std::uint32_t t) { return std::uint32_t((std::uint64_t(t) * items + count - 1) / count); };
+  for (std::uint32_t t = count; t-- > 0;) {
+    Share& share = shares_[t];
+    share.first = first;
+    share.work = work;
+    share.owner = owner;
+    share.batch = batch;
+    // The caller has its first item at once, while all of this reaches the others.
+    share.state.store(packed(round, begin_of(t + 1), t == 0 ? 1 : begin_of(t)), std::memory_order_release);
+  }
   round_.store(round);
   if (sleepers_.load() > 0) round_.notify_all();
+  const std::uint64_t begin = ticks();
   work(owner, batch, first, 0);
-  const std::uint32_t done = 1 + work_on(round, 0);
+  const std::uint32_t done = 1 + work_on(round, 0, begin);
   for (unsigned spins = 1; undone_.load(std::memory_order_acquire) > done; ++spins) {
     relax();
     if (spins >= yield_limit && spins % clock_interval == 0) std::this_thread::yield();  // fewer cores than threads?
   }
 }
 
-/// Returns how many items it has done.
-std::uint32_t WorkerPool::work_on(std::uint32_t round, unsigned thread) {
+/// Its own share, then the last items of others. `begin`: ticks, when it began. Returns how many items it has done.
+std::uint32_t WorkerPool::work_on(std::uint32_t round, unsigned thread, std::uint64_t begin) {
+  Share& own = shares_[thread];
   std::uint32_t done = 0;
-  for (std::uint32_t item; take(round, item); ++done)
-    queue_.work(queue_.owner, queue_.batch, queue_.first + item, thread);
+  for (std::uint32_t item; take(own, round, false, item); ++done)
+    own.work(own.owner, own.batch, own.first + item, thread);
+  return done + take_from_others(round, thread, (ticks() - begin) / patience_part);
+}
+
+/// `patience`: ticks. What another thread has in its cache takes longer here, and again when it comes back.
+std::uint32_t WorkerPool::take_from_others(std::uint32_t round, unsigned thread, std::uint64_t patience) {
+  const std::uint64_t start = ticks();
+  const unsigned count = threads();
+  std::uint32_t done = 0;
+  for (unsigned k = 1; k < count; ++k) {
+    Share& other = shares_[(thread + k) % count];
+    while (has_items(other, round) && ticks() - start < patience) relax();
+    for (std::uint32_t item; take(other, round, true, item); ++done)
+      other.work(other.owner, other.batch, other.first + item, thread);
+  }
   return done;
 }
 
-bool WorkerPool::take(std::uint32_t round, std::uint32_t& item) {
-  std::uint64_t state = queue_.state.load(std::memory_order_acquire);
+bool WorkerPool::has_items(const Share& share, std::uint32_t round) {
+  const std::uint64_t state = share.state.load(std::memory_order_acquire);
+  return std::uint32_t(state >> 32) == round && (state & 0xffff) < (state >> 16 & 0xffff);
+}
+
+/// Of those that are left, the last or the next one.
+bool WorkerPool::take(Share& share, std::uint32_t round, bool last, std::uint32_t& item) {
+  std::uint64_t state = share.state.load(std::memory_order_acquire);
   while (std::uint32_t(state >> 32) == round) {
-    item = std::uint32_t(state & 0xffff);
-    if (item >= std::uint32_t(state >> 16 & 0xffff)) return false;
-    if (queue_.state.compare_exchange_weak(state, state + 1, std::memory_order_acq_rel, std::memory_order_acquire))
+    const auto next = std::uint32_t(state & 0xffff), end = std::uint32_t(state >> 16 & 0xffff);
+    if (next >= end) return false;
+    item = last ? end - 1 : next;
+    const std::uint64_t rest = packed(round, last ? end - 1 : end, last ? next : next + 1);
+    if (share.state.compare_exchange_weak(state, rest, std::memory_order_acq_rel, std::memory_order_acquire))
       return true;
   }
   return false;
@@ -91,16 +123,17 @@ bool WorkerPool::take(std::uint32_t round, std::uint32_t& item) {
 void WorkerPool::serve(unsigned thread) {
   const CLocale locale;
   for (std::uint32_t seen = 0;;) {
-    wait_for_round_after(seen);
-    seen = round_.load(std::memory_order_acquire);
+    wait_for_round_after(seen, thread);
+    seen = shares_[thread].round();
     if (quit_.load(std::memory_order_relaxed)) return;
-    if (const std::uint32_t done = work_on(seen, thread); done > 0) undone_.fetch_sub(done, std::memory_order_acq_rel);
+    if (const std::uint32_t done = work_on(seen, thread, ticks()); done > 0)
+      undone_.fetch_sub(done, std::memory_order_acq_rel);
   }
 }
 
-void WorkerPool::wait_for_round_after(std::uint32_t seen) {
+void WorkerPool::wait_for_round_after(std::uint32_t seen, unsigned thread) {
   std::chrono::steady_clock::time_point start{};
-  for (unsigned spins = 1; round_.load(std::memory_order_acquire) == seen; ++spins) {
+  for (unsigned spins = 1; shares_[thread].round() == seen; ++spins) {
     relax();
     if (spins % clock_interval != 0) continue;
     const auto now = std::chrono::steady_clock::now();
