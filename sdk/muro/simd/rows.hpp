@@ -69,6 +69,20 @@ MURO_INLINE void load_eight_pairs(const double* const* at, std::ptrdiff_t k, Eig
   first = Eight(_mm512_unpacklo_pd(even, odd));
   second = Eight(_mm512_unpackhi_pd(even, odd));
 }
+/// The first four numbers of each of eight places.
+MURO_INLINE void load_eight_fours(const double* const* at, std::ptrdiff_t k, Eight* to) {
+  const auto halves = [&](const double* low, const double* high) {
+    return _mm512_mask_broadcast_f64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(low + k)), 0xf0,
+                                       _mm256_loadu_pd(high + k));
+  };
+  const __m512d a = halves(at[0], at[2]), b = halves(at[1], at[3]), c = halves(at[4], at[6]), d = halves(at[5], at[7]);
+  const __m512d even_ab = _mm512_unpacklo_pd(a, b), even_cd = _mm512_unpacklo_pd(c, d);
+  const __m512d odd_ab = _mm512_unpackhi_pd(a, b), odd_cd = _mm512_unpackhi_pd(c, d);
+  to[0] = Eight(_mm512_shuffle_f64x2(even_ab, even_cd, 0x88));
+  to[1] = Eight(_mm512_shuffle_f64x2(odd_ab, odd_cd, 0x88));
+  to[2] = Eight(_mm512_shuffle_f64x2(even_ab, even_cd, 0xdd));
+  to[3] = Eight(_mm512_shuffle_f64x2(odd_ab, odd_cd, 0xdd));
+}
 /// Two numbers to each of eight places.
 MURO_INLINE void store_eight_pairs(double* const* at, std::ptrdiff_t k, const Eight& first, const Eight& second) {
   const auto quarters = [&](double* const* to, __m512d v) {
@@ -95,6 +109,24 @@ MURO_INLINE void store_eight_fours(double* const* at, std::ptrdiff_t k, const Ei
   halves(at + 1, _mm512_unpackhi_pd(__m512d(a), __m512d(b)), _mm512_unpackhi_pd(__m512d(c), __m512d(d)));
 }
 /// Numbers k to n - 1 of each of eight places.
+template <int k, int n, class S>
+MURO_INLINE void load_eight_from(const Places<S>& from, std::ptrdiff_t first, S (&to)[n]) {
+  if constexpr (n - k >= 4) {
+    Eight four[4];
+    load_eight_fours(from.at, first + k, four);
+    for (int i = 0; i < 4; ++i) to[k + i].v = four[i];
+    load_eight_from<k + 4, n, S>(from, first, to);
+  } else if constexpr (n - k == 3 && n > 3) {  // rather one number twice than two pieces
+    Eight four[4];
+    load_eight_fours(from.at, first + k - 1, four);
+    for (int i = 1; i < 4; ++i) to[k - 1 + i].v = four[i];
+  } else if constexpr (n - k >= 2) {
+    load_eight_pairs(from.at, first + k, to[k].v, to[k + 1].v);
+    load_eight_from<k + 2, n, S>(from, first, to);
+  } else if constexpr (n - k == 1) {
+    to[k] = load<S>(from, first + k);
+  }
+}
 template <int k, int n, class S>
 MURO_INLINE void store_eight_from(const Places<S, double>& to, std::ptrdiff_t first, const S (&from)[n]) {
   constexpr int left = n - k, at = left == 3 && n > 3 ? k - 1 : k;  // rather one number twice than two pieces
@@ -197,13 +229,10 @@ MURO_INLINE void store_side_by_side(double* to, S value) {
 template <int n, class S>
 MURO_INLINE void load_rows(const Places<S>& from, std::ptrdiff_t first, S (&to)[n]) {
   if constexpr (detail::has_groups<S>) {
-    for (int k = 0; k + 1 < n; k += 2) {
 #if MURO_HAS_MASK_REGISTERS
-      if constexpr (count_of<S> == 8) {
-        detail::load_eight_pairs(from.at, first + k, to[k].v, to[k + 1].v);
-        continue;
-      }
+    if constexpr (count_of<S> == 8) return detail::load_eight_from<0, n, S>(from, first, to);
 #endif
+    for (int k = 0; k + 1 < n; k += 2) {
       constexpr int groups = detail::groups_of<S>;
       detail::Group a[groups], b[groups];
       for (int g = 0; g < groups; ++g) detail::load_pairs(from.at + g * detail::group, first + k, a[g], b[g]);
