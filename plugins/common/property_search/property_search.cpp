@@ -2,6 +2,8 @@
 #include "plugins/common/property_search/property_search.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
 
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
@@ -29,15 +31,28 @@ PropertyReference read_reference(std::string_view text) {
   return {std::string(text.substr(0, colon)), std::string(text.substr(colon + 1))};
 }
 
-PropertySearch::PropertySearch(const Connector& connector, const Item& item) : connector_(connector), item_(item) {
+RobotObjects::RobotObjects(const Connector& connector) : begins_(connector.robots().size() + 1) {
+  const std::uint32_t count = connector.object_count();
+  std::vector<std::int32_t> robots(count);
+  for (std::uint32_t o = 0; o < count; ++o)
+    if ((robots[o] = connector.robot_of(ObjectId{o})) >= 0) ++begins_[std::size_t(robots[o]) + 1];
+  std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+  objects_.resize(begins_.back());
+  std::vector<std::size_t> next = begins_;
+  for (std::uint32_t o = 0; o < count; ++o)
+    if (robots[o] >= 0) objects_[next[std::size_t(robots[o])]++] = ObjectId{o};
+}
+
+PropertySearch::PropertySearch(const Connector& connector, const Item& item, const RobotObjects& of_robots)
+    : connector_(connector), item_(item) {
   objects_.push_back(item.object);
   const auto add = [&](ObjectId o) {
     if (std::find(objects_.begin(), objects_.end(), o) == objects_.end()) objects_.push_back(o);
   };
   if (item.robot) add(item.robot->base());
   preferred_ = objects_.size();
-  for (std::uint32_t o = 0; item.robot && o < connector.object_count(); ++o)
-    if (is_own(ObjectId{o})) add(ObjectId{o});
+  if (item.robot)
+    for (const ObjectId o : of_robots.of(item.robot->number)) add(o);
 }
 
 std::vector<FoundProperty> PropertySearch::candidates(std::string_view property) const {
@@ -114,6 +129,13 @@ ObjectId PropertySearch::object(std::string_view name) const {
   ObjectId found = no_object;
   if (item_.robot) found = connector_.find_object(std::string(item_.robot->name) + "/" + std::string(name));
   return found != no_object ? found : connector_.find_object(name);
+}
+
+std::vector<ObjectId> PropertySearch::own_objects() const {
+  std::vector<ObjectId> own;
+  std::copy_if(objects_.begin(), objects_.end(), std::back_inserter(own), [this](ObjectId o) { return is_own(o); });
+  std::sort(own.begin(), own.end());
+  return own;
 }
 
 bool PropertySearch::is_own(ObjectId object) const {

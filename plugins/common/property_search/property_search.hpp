@@ -20,10 +20,26 @@ struct PropertyReference {
 /// Either part may be empty.
 PropertyReference read_reference(std::string_view text);
 
+/// The objects of all robots, found in one pass: for searches in many robots. [setup]
+class RobotObjects {
+ public:
+  explicit RobotObjects(const Connector& connector);
+  /// Of a robot, in their order; `robot`: its number.
+  std::span<const ObjectId> of(std::uint32_t robot) const {
+    return std::span(objects_).subspan(begins_[robot], begins_[robot + 1] - begins_[robot]);
+  }
+
+ private:
+  std::vector<ObjectId> objects_;    ///< robot by robot
+  std::vector<std::size_t> begins_;  ///< of each robot, in these; and the end of the last
+};
+
 /// Finds the properties that a scenario names, for one item. Sums, which have no single value, are not found. [setup]
 class PropertySearch {
  public:
-  PropertySearch(const Connector& connector, const Item& item);
+  PropertySearch(const Connector& connector, const Item& item)
+      : PropertySearch(connector, item, RobotObjects(connector)) {}
+  PropertySearch(const Connector& connector, const Item& item, const RobotObjects& of_robots);
 
   /// The object of the item, the base of its robot, the other objects of the robot: the order of search.
   std::span<const ObjectId> objects() const { return objects_; }
@@ -47,8 +63,9 @@ class PropertySearch {
   /// writes it, so it may be written though nobody has it yet.
   std::optional<FoundProperty> target_velocity(ObjectId object, std::string_view property) const;
 
-  bool is_own(ObjectId object) const;     ///< of the robot of the item
-  bool is_shadow(ObjectId object) const;  ///< of a robot that is a shadow
+  std::vector<ObjectId> own_objects() const;  ///< of the robot of the item, in the order of the scenario
+  bool is_own(ObjectId object) const;         ///< one of these
+  bool is_shadow(ObjectId object) const;      ///< of a robot that is a shadow
   /// Of a joint, and of what an encoder looks at; `fixed` for what is neither.
   JointKind joint_of(ObjectId object) const;
 

@@ -90,20 +90,19 @@ bool matches(std::string_view pattern, std::string_view name) {
 std::vector<FoundProperty> PropertyFinder::find_matching(const PropertyReference& reference, bool input) const {
   std::vector<FoundProperty> found, targets;
   bool any_object = false;
-  const auto add = [&](std::uint32_t o, std::string_view name) {
-    if (!matches(reference.object, name) || search_.is_shadow(ObjectId{o})) return;
+  const auto add = [&](ObjectId o, std::string_view name) {
+    if (!matches(reference.object, name) || search_.is_shadow(o)) return;
     any_object = true;
-    if (const auto p = search_.property_of(ObjectId{o}, reference.property))
+    if (const auto p = search_.property_of(o, reference.property))
       found.push_back(*p);
-    else if (const auto target = search_.target_velocity(ObjectId{o}, reference.property); target && !input)
+    else if (const auto target = search_.target_velocity(o, reference.property); target && !input)
       targets.push_back(*target);
   };
-  for (std::uint32_t o = 0; o < connector_.object_count(); ++o)
-    if (search_.is_own(ObjectId{o})) add(o, search_.local_name(ObjectId{o}));
+  for (const ObjectId o : search_.own_objects()) add(o, search_.local_name(o));
   if (found.empty()) found = std::exchange(targets, {});
   if (!found.empty()) return found;
   targets.clear();
-  for (std::uint32_t o = 0; o < connector_.object_count(); ++o) add(o, connector_.object_name(ObjectId{o}));
+  for (std::uint32_t o = 0; o < connector_.object_count(); ++o) add(ObjectId{o}, connector_.object_name(ObjectId{o}));
   if (found.empty()) found = std::move(targets);
   if (!found.empty()) return found;
   if (any_object)

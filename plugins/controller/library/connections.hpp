@@ -33,8 +33,8 @@ bool matches(std::string_view pattern, std::string_view name);
 /// Finds what the ports of one item stand for.
 class PropertyFinder {
  public:
-  PropertyFinder(const Connector& connector, const Item& item)
-      : connector_(connector), item_(item), search_(connector, item) {}
+  PropertyFinder(const Connector& connector, const Item& item, const RobotObjects& of_robots)
+      : connector_(connector), item_(item), search_(connector, item, of_robots) {}
 
   /// The properties of a port, in order. Without a connection: the property of the port's name, see PropertySearch;
   /// where there is a reading of the device (NAME.measured), an input gets that one. An output may name the target of

@@ -92,9 +92,10 @@ void ControlledRobot::check_tasks(double rate) const {
   }
 }
 
-std::vector<std::string> ControlledRobot::connect(Connector& c, const Connections& inputs, const Connections& outputs) {
+std::vector<std::string> ControlledRobot::connect(Connector& c, const RobotObjects& objects, const Connections& inputs,
+                                                  const Connections& outputs) {
   check_tasks(c.rate());
-  const PropertyFinder finder(c, c.items()[item_]);
+  const PropertyFinder finder(c, c.items()[item_], objects);
   std::vector<std::string> missing;
   for (const muro_port& port : settings_.table.inputs) {
     inputs_.push_back(connect_port(c, finder, port, inputs, true));

@@ -64,7 +64,8 @@ class ControlledRobot {
   /// Takes over a process in which the library is loaded already. [setup]
   void use_process(std::unique_ptr<ControlProcess> process) { process_ = std::move(process); }
   /// Looks for the properties of all ports and asks for them. Returns the optional inputs that it lacks. [setup]
-  std::vector<std::string> connect(Connector& connector, const Connections& inputs, const Connections& outputs);
+  std::vector<std::string> connect(Connector& connector, const RobotObjects& objects, const Connections& inputs,
+                                   const Connections& outputs);
   /// Inputs that work and hardly as meant, in words. [after connect]
   const std::vector<std::string>& doubts() const { return doubts_; }
   /// Outputs that go nowhere, in words. [after connect]

@@ -89,9 +89,10 @@ class LibraryController final : public Algorithm {
     const ControlTable& table = settings_.table;
     const Connections in = read_connections("inputs", p.texts("inputs"), table.inputs, table.name);
     const Connections out = read_connections("outputs", p.texts("outputs"), table.outputs, table.name);
+    const RobotObjects objects(c);
     std::map<std::string, std::string> missing;  // optional inputs that a robot lacks, and the first such robot
     for (const auto& robot : robots_)
-      for (const std::string& port : robot->connect(c, in, out)) missing.emplace(port, robot->name());
+      for (const std::string& port : robot->connect(c, objects, in, out)) missing.emplace(port, robot->name());
     for (const auto& [port, robot] : missing)
       c.host().log(LogLevel::warning, "robot `" + robot + "`: `" + table.name + "` runs without its input `" + port +
                                           "`, which nothing of the robot provides");

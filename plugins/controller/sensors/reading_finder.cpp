@@ -33,17 +33,23 @@ std::vector<Found> select(const std::vector<Found>& from, std::string_view patte
 
 }  // namespace
 
-ReadingFinder::ReadingFinder(const Connector& connector, const Item& item) : search_(connector, item) {
-  for (std::uint32_t i = 0; i < connector.object_count(); ++i) {
+ReadingFinder::ReadingFinder(const Connector& connector, const Item& item, const RobotObjects& of_robots)
+    : connector_(connector), search_(connector, item, of_robots) {
+  for (const ObjectId object : search_.own_objects())
+    for (const FoundProperty& p : connector.properties(object))
+      own_.emplace_back(search_.local_name(object) + ":" + std::string(p.key->name), p);
+}
+
+/// But for those of shadows of other robots.
+std::vector<Found> ReadingFinder::all() const {
+  std::vector<Found> found;
+  for (std::uint32_t i = 0; i < connector_.object_count(); ++i) {
     const ObjectId object{i};
-    const bool is_own = search_.is_own(object);
-    if (!is_own && search_.is_shadow(object)) continue;
-    for (const FoundProperty& p : connector.properties(object)) {
-      const std::string property = ":" + std::string(p.key->name);
-      if (is_own) own_.emplace_back(search_.local_name(object) + property, p);
-      all_.emplace_back(std::string(connector.object_name(object)) + property, p);
-    }
+    if (!search_.is_own(object) && search_.is_shadow(object)) continue;
+    for (const FoundProperty& p : connector_.properties(object))
+      found.emplace_back(std::string(connector_.object_name(object)) + ":" + std::string(p.key->name), p);
   }
+  return found;
 }
 
 std::vector<Found> ReadingFinder::find_measured(std::string_view property) const {
@@ -60,13 +66,13 @@ std::vector<Found> ReadingFinder::find(std::string_view member) const {
   const bool names_object = member.find(':') != member.npos;
   if (!names_object) found = find_measured(member);
   if (names_object) found = select(own_, member, skipped);
-  if (found.empty() && names_object) found = select(all_, member, skipped);
+  if (found.empty() && names_object) found = select(all(), member, skipped);
   if (!found.empty()) return found;
   if (!skipped.empty()) throw Error(quote(member) + " gives nothing to read: " + skipped);
   std::vector<std::string> known;
   for (const Found& f : own_) known.push_back(names_object ? f.first : std::string(f.second.key->name));
   if (names_object)
-    for (const Found& f : all_) known.push_back(f.first);
+    for (const Found& f : all()) known.push_back(f.first);
   throw Error("no property matches " + quote(member) + did_you_mean(member, known) +
               "; write \"object:property\", such as \"laser:ranges\", or \"property\"; `muro describe` lists all");
 }

@@ -16,7 +16,7 @@ class ReadingFinder {
   /// A property with its name for clients.
   using Found = std::pair<std::string, FoundProperty>;
 
-  ReadingFinder(const Connector& connector, const Item& item);
+  ReadingFinder(const Connector& connector, const Item& item, const RobotObjects& of_robots);
 
   /// "object:property" with * and ? on the robot itself, without its name ("laser:ranges"), or, where the robot has
   /// none such, on any object by its full name ("rover_1/base_link:pose"). "property" alone is that of any object of
@@ -26,9 +26,11 @@ class ReadingFinder {
 
  private:
   std::vector<Found> find_measured(std::string_view property) const;
+  std::vector<Found> all() const;
 
+  const Connector& connector_;
   PropertySearch search_;
-  std::vector<Found> own_, all_;  ///< of the robot, by local names; of all objects
+  std::vector<Found> own_;  ///< of the robot, by local names
 };
 
 }  // namespace muro::sensors

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Readings for programs outside of the simulation; see README.md.
 #include <memory>
+#include <optional>
 
 #include "muro/plugin.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -41,7 +42,8 @@ class SensorsController final : public wire::WireController {
 
  private:
   std::vector<std::unique_ptr<wire::Group>> groups_of(Connector& c, std::uint32_t item) override {
-    const ReadingFinder finder(c, c.items()[item]);
+    if (!objects_) objects_.emplace(c);
+    const ReadingFinder finder(c, c.items()[item], *objects_);
     std::vector<std::unique_ptr<wire::Group>> groups;
     for (const wire::GroupText& text : groups_) {
       std::vector<Reading> readings;
@@ -58,6 +60,7 @@ class SensorsController final : public wire::WireController {
   }
 
   std::vector<wire::GroupText> groups_;
+  std::optional<RobotObjects> objects_;
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<SensorsController>(description)};
