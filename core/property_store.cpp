@@ -17,7 +17,7 @@ namespace muro {
 namespace {
 
 constexpr SlotId no_slot = 0xffffffffu;
-constexpr std::uint64_t first_capacity = 32;  ///< elements of a list: enough for the contacts of a vehicle at a wall
+constexpr std::uint64_t first_capacity = 8;  ///< elements of a list: the contacts of a vehicle
 
 bool writes(Usage u) { return u.access == Access::write; }
 
@@ -281,7 +281,7 @@ PropertyStore::Image PropertyStore::save() const {
   Image image;
   for (const Column& c : columns_)
     if (c.key().type->scalar != Scalar::transient)
-      c.each_block([&](std::span<std::byte> b) { image.blocks.emplace_back(b.begin(), b.end()); });
+      c.each_block([&](std::span<std::byte> b) { image.blocks.emplace_back(b); });
   for (const ListHeader& list : lists_) {
     const auto* first = static_cast<const std::byte*>(list.data);
     image.lists.emplace_back(first, first + list.size * list.element_size);
@@ -296,8 +296,7 @@ void PropertyStore::load(const Image& image) {
   bool same = blocks.size() == image.blocks.size() && lists_.size() == image.lists.size();
   for (std::size_t i = 0; same && i < blocks.size(); ++i) same = blocks[i].size() == image.blocks[i].size();
   if (!same) throw SetupError("the snapshot is of another simulation: its properties are not those of this one");
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-    std::memcpy(blocks[i].data(), image.blocks[i].data(), blocks[i].size());
+  for (std::size_t i = 0; i < blocks.size(); ++i) image.blocks[i].copy_to(blocks[i]);
   for (std::size_t k = 0; k < lists_.size(); ++k) {
     ListHeader& list = lists_[k];
     list.size = image.lists[k].size() / list.element_size;

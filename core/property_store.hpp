@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/column.hpp"
+#include "core/sparse_bytes.hpp"
 #include "muro/connector.hpp"
 
 namespace muro {
@@ -101,7 +102,7 @@ class PropertyStore {
 
   /// The whole memory of properties, byte by byte; transient values are left out.
   struct Image {
-    std::vector<std::vector<std::byte>> blocks;
+    std::vector<SparseBytes> blocks;
     std::vector<std::vector<std::byte>> lists;
   };
   Image save() const;

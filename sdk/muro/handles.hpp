@@ -141,6 +141,10 @@ class ListOut {
     if (header_->size == header_->capacity) header_->grow(header_, header_->size + 1);
     static_cast<T*>(header_->data)[header_->size++] = value;
   }
+  /// Makes room for so many elements, of a list that never has more. [setup]
+  void reserve(std::uint64_t count) const {
+    if (header_->capacity < count) header_->grow(header_, count);
+  }
   std::span<T> operator*() const { return {static_cast<T*>(header_->data), header_->size}; }
   explicit operator bool() const { return header_ != nullptr; }
 

@@ -136,6 +136,7 @@ void NativeCollision::allocate_signatures() {
     all += ground_robots_[r].words;
     const std::size_t most = max_ground_points * index_->robots[r].count * grounds_.size();
     most_ground_points_ = std::max(most_ground_points_, most);
+    robots_[r].list.reserve(most);
     for (std::size_t i = 0; i < most; ++i) robots_[r].list.push_back({});
     robots_[r].list.clear();
   }

@@ -164,7 +164,7 @@ void ControlledRobot::measure() {
   const auto add = [&](Port& port, const muro_port& wanted, bool input) {
     port.resolve();
     check_size(port, wanted, input);
-    words += (port.bytes() + 7) / 8;
+    if (!input || !port.direct()) words += (port.bytes() + 7) / 8;
   };
   for (std::size_t i = 0; i < inputs_.size(); ++i) add(inputs_[i], settings_.table.inputs[i], true);
   for (std::size_t i = 0; i < outputs_.size(); ++i) add(outputs_[i], settings_.table.outputs[i], false);
