@@ -2,14 +2,53 @@
 #include "block_system.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace muro::penalty {
 
+bool BlockFactor::compute(const Block& block) {
+  for (int j = 0; j < 6; ++j) {
+    double square = block(j, j);
+    for (int k = 0; k < j; ++k) square -= lower_(j, k) * lower_(j, k);
+    if (!(square > 0)) return false;
+    const double inverse = inverses_[j] = 1 / std::sqrt(square);
+    for (int i = j + 1; i < 6; ++i) {
+      double sum = block(i, j);
+      for (int k = 0; k < j; ++k) sum -= lower_(i, k) * lower_(j, k);
+      lower_(i, j) = sum * inverse;
+    }
+  }
+  return true;
+}
+
+BlockFactor::Vector BlockFactor::solve(Vector right) const {
+  for (int j = 0; j < 6; ++j) {
+    right[j] *= inverses_[j];
+    for (int i = j + 1; i < 6; ++i) right[i] -= lower_(i, j) * right[j];
+  }
+  for (int j = 5; j >= 0; --j) {
+    for (int i = j + 1; i < 6; ++i) right[j] -= lower_(i, j) * right[i];
+    right[j] *= inverses_[j];
+  }
+  return right;
+}
+
+void BlockFactor::divide(Block& rows) const {
+  for (int j = 0; j < 6; ++j) {
+    for (int k = 0; k < j; ++k) rows.col(j) -= lower_(j, k) * rows.col(k);
+    rows.col(j) *= inverses_[j];
+  }
+  for (int j = 5; j >= 0; --j) {
+    for (int i = j + 1; i < 6; ++i) rows.col(j) -= lower_(i, j) * rows.col(i);
+    rows.col(j) *= inverses_[j];
+  }
+}
+
 void BlockSystem::start(std::uint32_t bodies) {
   diagonals_.resize(bodies);
   pivots_.resize(bodies);
-  inverses_.resize(bodies);
+  factors_.resize(bodies);
   for (std::vector<Vector>* v : {&residual_, &direction_, &image_, &preconditioned_}) v->resize(bodies);
   couplings_.clear();
   newest_.assign(bodies, no_coupling);
@@ -84,27 +123,24 @@ void BlockSystem::factorise() {
   std::copy(diagonals_.begin(), diagonals_.end(), pivots_.begin());
   for (Coupling& c : couplings_) c.factor = c.block;
   for (const std::uint32_t body : order_) {
-    inverses_[body].compute(pivots_[body]);
     // what was left out may have taken too much from it
-    if (inverses_[body].info() != Eigen::Success) inverses_[body].compute(diagonals_[body]);
+    if (!factors_[body].compute(pivots_[body])) factors_[body].compute(diagonals_[body]);
     for (const Link& l : links(body)) {
       if (rank_[l.body] < rank_[body]) continue;
       const Block row = couplings_[l.coupling].factor;  // before it is divided
-      const Block divided = inverses_[body].solve(row.transpose()).transpose();
-      pivots_[l.body].noalias() -= divided * row.transpose();
+      Block divided = row;
+      factors_[body].divide(divided);
+      pivots_[l.body].noalias() -= divided.lazyProduct(row.transpose());
       for (const Link& m : links(body)) {
         if (rank_[m.body] <= rank_[l.body]) continue;
         const std::uint32_t both = coupling_of(l.body, m.body);
         // factors of rows behind this one are not divided yet
         if (both != no_coupling)
-          couplings_[both].factor.noalias() -= couplings_[m.coupling].factor * divided.transpose();
+          couplings_[both].factor.noalias() -= couplings_[m.coupling].factor.lazyProduct(divided.transpose());
       }
     }
     for (const Link& l : links(body))
-      if (rank_[l.body] > rank_[body]) {
-        Block& factor = couplings_[l.coupling].factor;
-        factor = inverses_[body].solve(Block(factor.transpose())).transpose().eval();
-      }
+      if (rank_[l.body] > rank_[body]) factors_[body].divide(couplings_[l.coupling].factor);
   }
 }
 
@@ -115,7 +151,7 @@ void BlockSystem::precondition(std::span<const Vector> r, std::span<Vector> z) c
       if (rank_[l.body] > rank_[body]) z[l.body].noalias() -= couplings_[l.coupling].factor * z[body];
   for (std::size_t i = order_.size(); i-- > 0;) {
     const std::uint32_t body = order_[i];
-    Vector solved = inverses_[body].solve(z[body]);
+    Vector solved = factors_[body].solve(z[body]);
     for (const Link& l : links(body))
       if (rank_[l.body] > rank_[body]) solved.noalias() -= couplings_[l.coupling].factor.transpose() * z[l.body];
     z[body] = solved;

@@ -8,7 +8,6 @@
 // so that the factorisation of a tree (a stack, a load on four wheels) is exact and one iteration is enough.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
@@ -17,10 +16,28 @@
 
 namespace muro::penalty {
 
-class BlockSystem {
+/// L L' of a symmetric positive definite block. (That of Eigen is made for large matrices.)
+class BlockFactor {
  public:
   using Block = Eigen::Matrix<double, 6, 6>;
   using Vector = Eigen::Matrix<double, 6, 1>;
+
+  /// From the lower triangle. Returns false, and is of no use, where the block is not positive definite.
+  bool compute(const Block& block);
+  /// Solves for one right side.
+  Vector solve(Vector right) const;
+  /// Of each row of `rows` the solution for it as right side.
+  void divide(Block& rows) const;
+
+ private:
+  Block lower_;      ///< below the diagonal
+  Vector inverses_;  ///< of the diagonal
+};
+
+class BlockSystem {
+ public:
+  using Block = BlockFactor::Block;
+  using Vector = BlockFactor::Vector;
   static constexpr std::uint32_t no_coupling = std::numeric_limits<std::uint32_t>::max();
 
   /// Starts a system without couplings.
@@ -64,7 +81,7 @@ class BlockSystem {
   void multiply(std::span<const Vector> x, std::span<Vector> y) const;
 
   std::vector<Block> diagonals_, pivots_;
-  std::vector<Eigen::LLT<Block>> inverses_;
+  std::vector<BlockFactor> factors_;
   std::vector<Coupling> couplings_;
   std::vector<Link> links_;
   std::vector<std::uint32_t> newest_;  ///< by first body: its newest coupling

@@ -11,20 +11,32 @@ namespace {
 
 using Block = BlockSystem::Block;
 
-Mat3 crossing(const Vec3& r) { return (Mat3() << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0).finished(); }
-
 /// A damper of `across`, and of `along` in the direction of `n`.
-Mat3 damper(double along, double across, const Vec3& n) {
+MURO_INLINE Mat3 damper(double along, double across, const Vec3& n) {
   return across * Mat3::Identity() + ((along - across) * n) * n.transpose();
 }
 
 /// Adds J_a' K J_b of a damper K in a point, at levers `a` and `b`, with J = (1, -r x).
 void add_at_levers(Block& block, const Mat3& k, const Vec3& a, const Vec3& b) {
-  const Mat3 of_a = crossing(a), turned = -k * crossing(b);
-  block.topLeftCorner<3, 3>() += k;
-  block.topRightCorner<3, 3>() += turned;
-  block.bottomLeftCorner<3, 3>() += of_a * k;
-  block.bottomRightCorner<3, 3>() += of_a * turned;
+  Mat3 turned;
+  for (int i = 0; i < 3; ++i) {
+    const double x = k(i, 0), y = k(i, 1), z = k(i, 2);
+    turned(i, 0) = b.y() * z - b.z() * y;
+    turned(i, 1) = b.z() * x - b.x() * z;
+    turned(i, 2) = b.x() * y - b.y() * x;
+  }
+  const auto add = [&](int column, const Mat3& m) __attribute__((always_inline)) {
+    for (int j = 0; j < 3; ++j) {
+      double* const to = block.data() + 6 * (column + j);
+      const double x = m(0, j), y = m(1, j), z = m(2, j);
+      to[0] += x, to[1] += y, to[2] += z;
+      to[3] += a.y() * z - a.z() * y;
+      to[4] += a.z() * x - a.x() * z;
+      to[5] += a.x() * y - a.y() * x;
+    }
+  };
+  add(0, k);
+  add(3, turned);
 }
 
 /// Of the limit of friction: of what it holds, and of itself, since forces are brought into the cone at the end.
@@ -32,15 +44,17 @@ constexpr double precision = 2e-3, near = 1e-2;
 /// m/s: of the solution of a linear system, and of what changes no force that counts.
 constexpr double least_speed = 1e-8, slight = 1e-6;
 
-Vec3 along(const Vec3& v, const Vec3& n) { return n.dot(v) * n; }
+MURO_INLINE Vec3 along(const Vec3& v, const Vec3& n) { return n.dot(v) * n; }
 
 /// At a lever from the centre of mass.
-Vec3 velocity_at(const BlockSystem::Vector& body, const Vec3& lever) {
-  return body.head<3>() + body.tail<3>().cross(lever);
+MURO_INLINE Vec3 velocity_at(const BlockSystem::Vector& body, const Vec3& lever) {
+  const double x = body[3], y = body[4], z = body[5];
+  return {body[0] + (y * lever.z() - z * lever.y()), body[1] + (z * lever.x() - x * lever.z()),
+          body[2] + (x * lever.y() - y * lever.x())};
 }
 
 /// The part of a force that its limit leaves.
-double part_within(const Vec3& force, double most) {
+MURO_INLINE double part_within(const Vec3& force, double most) {
   const double size = force.norm();
   return size > most ? most / size : 1;
 }
@@ -84,7 +98,8 @@ void ContactSolver::hold(bool body, bool other) {
 /// Of the own point over the other, m/s: along the normal that of the point, across it that of where friction acts.
 Vec3 ContactSolver::velocity_in(const SolverContact& c, const std::vector<BlockSystem::Vector>& velocities) {
   const bool has_cell = !c.cell.isZero(0);
-  const auto of = [&](const BlockSystem::Vector& body, const Vec3& lever, bool moves) -> Vec3 {
+  const auto of = [&](const BlockSystem::Vector& body, const Vec3& lever, bool moves) __attribute__((always_inline))
+                      ->Vec3 {
     const Vec3 v = velocity_at(body, lever);
     if (!moves) return along(v, c.normal);
     if (!has_cell) return v;
@@ -176,6 +191,15 @@ bool ContactSolver::revise(SolverContact& c) const {
   return changed;
 }
 
+/// Of all contacts, from the velocities so far to the solution.
+void ContactSolver::find_ways() {
+  ways_.clear();
+  for (const SolverContact& c : contacts_) {
+    const Vec3 before = velocity_in(c, velocities_);
+    ways_.push_back({before, velocity_in(c, solution_) - before});
+  }
+}
+
 /// J: how the sum of all potentials changes from the velocities so far towards the solution, at `part` of the way.
 double ContactSolver::slope_at(double part) const {
   double slope = 0;
@@ -183,9 +207,10 @@ double ContactSolver::slope_at(double part) const {
     const BlockSystem::Vector way = solution_[i] - velocities_[i];
     slope += way.dot(bodies_[i].mass * (velocities_[i] + part * way) - bodies_[i].momentum);
   }
-  for (const SolverContact& c : contacts_) {
-    const Vec3 before = velocity_in(c, velocities_), way = velocity_in(c, solution_) - before;
-    const auto [load, drag] = reaction_at(c, before + part * way);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const SolverContact& c = contacts_[i];
+    const Vec3& way = ways_[i].way;
+    const auto [load, drag] = reaction_at(c, ways_[i].before + part * way);
     slope -= step_ * (c.only_damps ? load : std::max(load, 0.0)) * c.normal.dot(way);
     slope += step_ * (c.only_damps ? 1 : part_within(drag, c.limit)) * drag.dot(way - along(way, c.normal));
   }
@@ -201,6 +226,7 @@ bool ContactSolver::approach_solution() {
   }
   constexpr double flat = 0.1;  // of the slope at the start: as good as the minimum
   double part = 1;
+  find_ways();
   const double most = -flat * slope_at(0);
   if (most > 0 && slope_at(1) > most) {
     double low = 0, high = 1;

@@ -88,6 +88,7 @@ class ContactSolver {
   bool revise(SolverContact& c) const;
   void find_velocities(int& left);
   bool revise_limits(double part);
+  void find_ways();
   double slope_at(double part) const;
   bool approach_solution();
   void find_force(SolverContact& c) const;
@@ -96,6 +97,10 @@ class ContactSolver {
   std::vector<Body> bodies_;
   std::vector<SolverContact> contacts_;
   std::vector<BlockSystem::Vector> velocities_, solution_, right_;
+  struct Way {
+    Vec3 before, way;  ///< m/s
+  };
+  std::vector<Way> ways_;  ///< of contacts, see find_ways()
   BlockSystem system_;
 };
 
