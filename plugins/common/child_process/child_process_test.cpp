@@ -142,7 +142,8 @@ TEST(ChildProcess, NeedsNoDescriptorsOfProcesses) {
 TEST(ChildProcess, IsWaitedForAsLongAsIsSaid) {
   ChildProcess child;
   ASSERT_EQ(child.start(child_that("wait")), 0);
-  const std::string much(10'000'000, 'x');
+  std::string much;
+  much.resize(10'000'000, 'x');
   int number = 0;
   EXPECT_EQ(child.send(much.data(), much.size(), ChildProcess::Clock::now() + 50ms), Transfer::late);
   EXPECT_EQ(child.receive(&number, sizeof number, ChildProcess::Clock::now() + 50ms), Transfer::late);

@@ -158,7 +158,8 @@ void forward_lanes(const TreeLink* links, const StateOffsets* offsets, int link_
 
 void forward_kinematics(const TreeLink* links, const StateOffsets* offsets, int link_count, const RobotState* robots,
                         int robot_count) {
-  constexpr int at_once = 4;  // registers hold the state of a link of as many
+  // Registers hold the state of a link of as many.
+  constexpr int at_once = vectors::register_bytes >= 64 ? 8 : 4;
   for (int k = 0; k < robot_count; k += at_once) {
     const int left = robot_count - k;
     in_lanes(left < at_once ? left : at_once, [&]<class S>(int first, int used) {
