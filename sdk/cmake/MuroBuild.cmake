@@ -24,6 +24,8 @@ endif()
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
                     -ffp-contract=off)
+# g++ looks for memory to free only when it has half a gigabyte: a sixth less time
+add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=524288>)
 if(MURO_WERROR)
   add_compile_options(-Werror)
 endif()
@@ -44,7 +46,7 @@ endfunction()
 
 # Makes a target part of test programs: with the headers and options of muro_test_pch. They spend their time in what they
 # test; compiling them is what takes long. Preset debug has symbols of tests.
-set(MURO_TEST_OPTIONS -fPIE "$<$<CONFIG:RelWithDebInfo>:-O1;-g0>" "$<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>")
+set(MURO_TEST_OPTIONS -fPIE "$<$<CONFIG:RelWithDebInfo>:-O1;-g0>")
 function(muro_compile_as_test target)
   target_link_libraries(${target} PUBLIC muro::sdk GTest::gtest)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})

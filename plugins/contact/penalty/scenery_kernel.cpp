@@ -127,7 +127,7 @@ class RobotContacts {
   struct Run {
     int begin, end;
     int most_anchors;
-    Places<S> poses, twists, anchors, ways;
+    Places<S> poses, twists, anchors;
     int last_anchor[count_of<S>];  ///< -1: none
     bool all_have_anchors;
   };
@@ -352,7 +352,6 @@ class RobotContacts {
       // where there is none, numbers of the contact stand in
       run.anchors.at[i] =
           anchors > 0 ? before_.at[i] + c.anchors_begin * anchor_stride : listed_.at[i] + c.place * contact_stride;
-      run.ways.at[i] = ways_before_.at[i] + (anchors > 0 && robot(i).rolls ? c.anchors_begin * way_stride : 0);
       run.last_anchor[i] = anchors - 1;
       run.all_have_anchors = run.all_have_anchors && anchors > 0;
       run.most_anchors = anchors > run.most_anchors ? anchors : run.most_anchors;
@@ -375,10 +374,10 @@ class RobotContacts {
   /// Those of robots that do not roll are any numbers.
   template <int n>
   [[gnu::noinline]] void load_ways(const Run& run, int anchors, OldAnchors<S, n>& to) const {
-    Places<S> at = run.ways;
-    if (is_uniform_)
-      for (int i = 0; i < count_of<S>; ++i)
-        at.at[i] = ways_before_.at[i] + (robot(i).rolls ? run.begin * way_stride : 0);
+    Places<S> at = ways_before_;
+    each_contact(run.begin, [&](int i, const KernelContact& c) {
+      if (robot(i).rolls && c.anchors_end > c.anchors_begin) at.at[i] += c.anchors_begin * way_stride;
+    });
     for (int k = 0; k < anchors; ++k) {
       to.load_way(k, at, 0);
       for (int i = 0; i < count_of<S>; ++i)
