@@ -8,8 +8,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,8 +20,14 @@ struct ProcessState {
 };
 
 inline ProcessState state_of_process(pid_t pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  char line[1024];
+  std::size_t length = 0;
+  // not by a stream: that throws where the process goes while it is read
+  if (std::FILE* const file = std::fopen(("/proc/" + std::to_string(pid) + "/stat").c_str(), "r")) {
+    length = std::fread(line, 1, sizeof line, file);
+    std::fclose(file);
+  }
+  const std::string text(line, length);
   const std::size_t end = text.rfind(')');  // behind the name
   ProcessState state;
   if (end != std::string::npos) std::sscanf(text.c_str() + end + 1, " %c %d", &state.letter, &state.parent);
