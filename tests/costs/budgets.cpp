@@ -59,7 +59,8 @@ double ratio(std::uint64_t now, std::uint64_t before) {
   return double(now) / double(std::max<std::uint64_t>(before, 1));
 }
 
-/// Functions sorted by what they cost more than in the budget.
+/// Functions sorted by what they cost more than in the budget; those that are in none, and too small for one, are left
+/// out.
 std::string where(const Cost& budget, const Cost& now) {
   struct Growth {
     std::string name;
@@ -69,7 +70,9 @@ std::string where(const Cost& budget, const Cost& now) {
   std::vector<Growth> all;
   for (const auto& [name, instructions] : now.functions) {
     const auto before = budget.functions.find(name);
-    all.push_back({name, before == budget.functions.end() ? 0 : before->second, instructions});
+    const bool is_known = before != budget.functions.end();
+    if (is_known || double(instructions) >= least_part_of_plugin * double(now.instructions))
+      all.push_back({name, is_known ? before->second : 0, instructions});
   }
   std::sort(all.begin(), all.end(), [](const Growth& a, const Growth& b) { return a.by() > b.by(); });
   std::string text;
