@@ -217,6 +217,10 @@ MURO_INLINE unsigned bits_of(const Mask& m) {
     return bits_of(m.low) | bits_of(m.high) << length_of<Mask> / 2;
   } else {
     [[maybe_unused]] constexpr bool eight_bytes = sizeof(Element<Mask>) == 8;
+#if defined(__AVX512DQ__)
+    if constexpr (sizeof m == 64 && eight_bytes) return _mm512_movepi64_mask(__m512i(m));
+    if constexpr (sizeof m == 64 && !eight_bytes) return _mm512_movepi32_mask(__m512i(m));
+#endif
 #if defined(__AVX__)
     if constexpr (sizeof m == 32 && eight_bytes) return unsigned(_mm256_movemask_pd(__m256d(m)));
     if constexpr (sizeof m == 32 && !eight_bytes) return unsigned(_mm256_movemask_ps(__m256(m)));
