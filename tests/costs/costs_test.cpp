@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
-
-#include <cstdlib>
-#include <filesystem>
 #include <iostream>
 
 #include "tests/costs/budgets.hpp"
@@ -97,7 +93,7 @@ TEST(Budgets, AreReadAsTheyAreWritten) {
 #if defined(MURO_COSTS_ARE_COMPARABLE)
 TEST(SlowCosts, StayWithinTheirBudgets) {
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "the budgets are those of AVX2";
-  for (const auto& [budget, now] : count(read_budgets(budgets_file)))
+  for (const auto& [budget, now] : count())
     for (const std::string& problem : grown(budget, now, 0.02)) ADD_FAILURE() << problem;
   if (HasFailure())
     std::cout << "Make it cheaper, or write the budgets anew (build/tests/record_costs), and say why in the commit.\n";

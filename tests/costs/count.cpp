@@ -7,7 +7,7 @@
 
 namespace muro::costs {
 
-std::vector<std::pair<SceneBudget, Costs>> count(const std::vector<SceneBudget>& scenes) {
+std::vector<std::pair<SceneBudget, Costs>> count() {
   const test::ScratchFolder folder;
   const std::string out = folder.path("callgrind.out");
   const test::CommandResult run = test::run_command(
@@ -17,7 +17,7 @@ std::vector<std::pair<SceneBudget, Costs>> count(const std::vector<SceneBudget>&
       out + " " MURO_COUNT_INSTRUCTIONS " " + budgets_file);
   if (run.exit_code != 0) throw std::runtime_error("valgrind failed:\n" + run.output);
   std::vector<std::pair<SceneBudget, Costs>> costs;
-  for (const SceneBudget& scene : scenes)
+  for (const SceneBudget& scene : read_budgets(budgets_file))
     costs.emplace_back(scene, read_callgrind(out + "." + std::to_string(costs.size() + 1), MURO_TEST_PLUGIN_DIR,
                                              MURO_COUNT_INSTRUCTIONS));
   return costs;

@@ -9,7 +9,7 @@ int main() {
   using namespace muro::costs;
   try {
     std::vector<SceneBudget> scenes;
-    for (auto& [scene, costs] : count(read_budgets(budgets_file))) {
+    for (auto& [scene, costs] : count()) {
       for (const auto& [plugin, cost] : costs)
         if (const auto old = scene.costs.find(plugin); old != scene.costs.end())
           std::printf("%s: %s %.3f\n", scene.name.c_str(), plugin.c_str(),

@@ -20,7 +20,7 @@ struct PropertyReference {
 /// Either part may be empty.
 PropertyReference read_reference(std::string_view text);
 
-/// The objects of all robots, found in one pass: for searches in many robots. [setup]
+/// The objects of all robots, found in one pass, once for the searches of an algorithm. [setup]
 class RobotObjects {
  public:
   explicit RobotObjects(const Connector& connector);
@@ -37,8 +37,6 @@ class RobotObjects {
 /// Finds the properties that a scenario names, for one item. Sums, which have no single value, are not found. [setup]
 class PropertySearch {
  public:
-  PropertySearch(const Connector& connector, const Item& item)
-      : PropertySearch(connector, item, RobotObjects(connector)) {}
   PropertySearch(const Connector& connector, const Item& item, const RobotObjects& of_robots);
 
   /// The object of the item, the base of its robot, the other objects of the robot: the order of search.

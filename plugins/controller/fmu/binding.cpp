@@ -45,7 +45,7 @@ bool holds(const Place& place, std::uint32_t scalar, std::uint32_t scalars) {
 }  // namespace
 
 void Binder::bind(const Item& item, Exchange& inputs, Exchange& outputs) {
-  const PropertySearch search(connector_, item);
+  const PropertySearch search(connector_, item, of_robots_);
   std::vector<std::string_view> open;
   for (std::size_t v = 0; v < description_.variables.size(); ++v) {
     const Variable& variable = description_.variables[v];

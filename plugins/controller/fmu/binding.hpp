@@ -17,6 +17,7 @@ class Binder {
   Binder(Connector& connector, const ModelDescription& description, const Mapping& inputs, const Mapping& outputs,
          std::function<bool(std::size_t)> has_value)
       : connector_(connector),
+        of_robots_(connector),
         description_(description),
         inputs_(inputs),
         outputs_(outputs),
@@ -41,6 +42,7 @@ class Binder {
   };
 
   Connector& connector_;
+  RobotObjects of_robots_;
   const ModelDescription& description_;
   const Mapping& inputs_;
   const Mapping& outputs_;
