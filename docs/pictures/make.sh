@@ -30,7 +30,7 @@ camera labels labels
   --size 1280x720 --out "$out/mixed_team.png"
 "$muro" render examples/soccer/soccer.yaml --at 1.45 --from=-1.9,-2.5,1.05 --to=0.75,0.35,0.05 --fov 52 --size 1280x640 \
   --out "$out/soccer.png"
-"$muro" render examples/soccer/match.yaml --at 38.9 --from=2.75,-2.35,0.95 --to=4.2,-0.8,0.12 --fov 53 --size 1280x720 \
+"$muro" render examples/soccer/match.yaml --at 72 --from=3.1,2.6,1 --to=4.25,0.85,0.12 --fov 53 --size 1280x720 \
   --out "$out/match.png"
 
 allan=$(mktemp --suffix=.svg)
