@@ -33,6 +33,7 @@ struct OwnLaw {
   S lowest, highest;  ///< of joints with stops
   S drag;             ///< of drives whose damping follows from the inertia
   S friction_loss, armature_loss;
+  S bound;  ///< -1, 1: of a drive that holds a velocity, and did what it can do at most in the last step; else 0
 };
 
 /// The piece of a law that a step takes.
@@ -110,11 +111,16 @@ MURO_INLINE JointPiece<S> meet(const JointLaw<S>& law, S inertia, S free, double
 }
 
 /// The piece on which a joint with velocity `v` most probably ends: where it is, and at rest where it hardly moves and
-/// friction may hold it.
+/// friction may hold it. `bound`: see OwnLaw; of a drive that holds a velocity.
 template <class S>
-MURO_INLINE JointPiece<S> guess(const JointLaw<S>& law, S v) {
+MURO_INLINE JointPiece<S> guess(const JointLaw<S>& law, S v, S bound) {
   const S zero(0), one(1), hardly(1e-4);  // rad/s or m/s
-  if (law.holds_velocity) return {zero, zero, zero, clamp(law.velocity, law.lowest, law.highest), zero};
+  if (law.holds_velocity) {
+    const MaskOf<S> gives_way = (bound > zero) | (bound < zero);
+    const S pull = bound * law.effort - sign_of(v) * law.friction;
+    return {select(gives_way, one, zero), select(gives_way, pull, zero), select(gives_way, law.damping, zero),
+            clamp(law.velocity, law.lowest, law.highest), bound * law.effort};
+  }
   const S friction = sign_of(v) * law.friction, wanted = law.pull - law.drag * v;
   const auto is_weak = abs(wanted) > law.effort;
   const S pull = select(is_weak, sign_of(wanted) * law.effort, law.pull), drag = select(is_weak, zero, law.drag);

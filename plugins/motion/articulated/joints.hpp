@@ -63,7 +63,7 @@ class Joints {
     for (int k = 1; k < s_.count; ++k) {
       find_law(k);
       work_.changes[k] = S(0);
-      work_.pieces[k] = guess(law(k), start_of(k).velocity);
+      work_.pieces[k] = guess(law(k), start_of(k).velocity, work_.laws[k].bound);
       set_terms_of(k);
     }
   }
@@ -180,10 +180,14 @@ class Joints {
   /// For the next step, in the robots `smooth`; nothing in the others. [after move]
   void keep_accelerations(MaskOf<S> smooth, unsigned which) const {
     each_row([&]<int n>(int k, std::integral_constant<int, n>) {
-      if (!has_carried(k, n)) return;
+      if (!keeps_something(k, n)) return;
       S of_joints[n];
-      for (int i = 0; i < n; ++i)
-        of_joints[i] = is_carried(s_.joints[k + i]) ? select(smooth, work_.stages[k + i].accelerations, S(0)) : S(0);
+      for (int i = 0; i < n; ++i) {
+        const Joint& j = s_.joints[k + i];
+        of_joints[i] = is_carried(j)       ? select(smooth, work_.stages[k + i].accelerations, S(0))
+                       : holds_velocity(j) ? bound_of(work_.pieces[k + i].effort, S(j.effort))
+                                           : S(0);
+      }
       store_numbers(accelerations_, of_base + k - 1, of_joints, which);
     });
   }
@@ -215,6 +219,13 @@ class Joints {
   bool has_carried(int k, int n) const {
     return std::any_of(s_.joints + k, s_.joints + k + n, [](const Joint& j) { return is_carried(j); });
   }
+
+  bool keeps_something(int k, int n) const {
+    return std::any_of(s_.joints + k, s_.joints + k + n,
+                       [](const Joint& j) { return is_carried(j) || holds_velocity(j); });
+  }
+  /// -1, 1: of a drive that does what it can do at most; else 0.
+  MURO_INLINE static S bound_of(S effort, S most) { return select(abs(effort) >= most, sign_of(effort), S(0)); }
 
   /// Whether something can take its velocity at once.
   MURO_INLINE static bool may_stop(const Joint& j) {
@@ -294,6 +305,7 @@ class Joints {
     if (j.has_friction_loss) own.friction_loss = load<S>(friction_losses_, j.friction_loss);
     if (j.has_armature_loss) own.armature_loss = load<S>(armature_losses_, j.armature_loss);
     if (j.drive == Drive::passive) return;
+    if (holds_velocity(j)) own.bound = accelerations_.at[0] ? load<S>(as_read(accelerations_), of_base + k - 1) : S(0);
     const S target = load<S>(targets_[int(j.drive)], j.target);
     if (j.drive == Drive::position)
       drive_to(k, target, state, own);
