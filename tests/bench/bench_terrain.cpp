@@ -2,6 +2,7 @@
 // What a vehicle costs on a heightmap, beside the same vehicle on a plane: motion.simplified with collision.native and
 // contact.penalty, on one thread, taking turns in one run.
 //   --vehicles N   so many, 300 by default
+//   --ground NAME  those alone whose names contain it
 #include <fmt/format.h>
 
 #include <chrono>
@@ -113,6 +114,7 @@ class Vehicles : public test::Scene {
 int main(int argc, char** argv) {
   Report report("terrain", "Vehicles on a heightmap", argc, argv);
   const int vehicles = std::stoi(report.argument("vehicles", "300"));
+  const std::string only = report.argument("ground", "");
   const double length = apart * (std::ceil(std::sqrt(vehicles)) + 8);
   const std::pair<const char*, Hills> grounds[] = {
       {"flat, cells of 0.5 m", Hills(length, std::uint32_t(2 * length) + 1, 0)},
@@ -126,6 +128,7 @@ int main(int argc, char** argv) {
       {"ground", "wheels", "ns a vehicle and step", "on a plane", "ratio"});
   for (const Wheels shape : {Wheels::cylinders, Wheels::balls})
     for (const auto& [name, hills] : grounds) {
+      if (std::string_view(name).find(only) == std::string_view::npos) continue;
       Hills ground = hills;
       if (&name == &grounds[0].first) std::fill(ground.values.begin(), ground.values.end(), 0.f);
       ground.map.values = ground.values;
