@@ -5,6 +5,8 @@
 // lie from that of all points as the pressure over the area has it, on average.
 #pragma once
 
+#include <type_traits>
+
 #include "muro/simd/geometry.hpp"
 
 namespace muro::contact_geometry {
@@ -69,25 +71,26 @@ MURO_INLINE S share_of_cells(const FacePoints<S>& points, S distances, S farthes
 }
 
 /// The shifts of `count` points of one patch, from `point(i)` to the middle of its cell, to `sink(i, shift)`.
-template <class Point, class Sink>
-void find_shifts(int count, bool is_disc, const Point& point, const Sink& sink) {
+/// `is_disc`: 1 where the points are on a rim, else 0.
+template <class S = double, class Point, class Sink>
+MURO_INLINE void find_shifts(int count, std::type_identity_t<S> is_disc, const Point& point, const Sink& sink) {
   if (count == 2) {
-    const V3<double> shift = shift_in_line(point(0), point(1));
+    const V3<S> shift = shift_in_line(point(0), point(1));
     sink(0, shift);
     sink(1, -shift);
   }
   if (count <= 2) return;
-  const V3<double> origin = point(0);
-  FacePoints<double> face;
+  const V3<S> origin = point(0);
+  FacePoints<S> face;
   for (int i = 0; i < count; ++i) face.add(point(i) - origin);
-  const V3<double> middle = origin + face.middle();
-  double distances = 0, farthest = 0;
+  const V3<S> middle = origin + face.middle();
+  S distances(0), farthest(0);
   for (int i = 0; i < count; ++i) {
-    const V3<double> d = point(i) - middle;
-    const double distance = sqrt(dot(d, d));
+    const V3<S> d = point(i) - middle;
+    const S distance = sqrt(dot(d, d));
     distances += distance, farthest = max(farthest, distance);
   }
-  const double rest = 1 - share_of_cells(face, distances, farthest, double(is_disc));
+  const S rest = S(1) - share_of_cells(face, distances, farthest, is_disc);
   for (int i = 0; i < count; ++i) sink(i, (middle - point(i)) * rest);
 }
 

@@ -19,12 +19,23 @@ struct KernelContact {
   double* kept = nullptr;           ///< from its point on, as KeptContact
   const double* other = nullptr;    ///< velocity of what it touches at the point, and its spin; null: it does not move
   const double* partner = nullptr;  ///< place of the other end, where it may be one of a line; else null
-  const ContactExtent* extent = nullptr;
-  int body = 0;
+  ContactExtent* extent = nullptr;
+  std::int16_t body = 0;
+  std::int16_t face = 0;  ///< so many contacts from here on are of the same two shapes, if more than two; else 0
   unsigned traits = 0;
   /// Of traits: `is_moved`, it has `other`; `may_be_line`, it has `partner`, which is the next contact, or where it
-  /// `is_second` the one before; `has_cell`, it is one of several points of a face.
-  enum : unsigned { resists_turning = 1, has_rim = 2, has_cell = 4, is_moved = 8, may_be_line = 16, is_second = 32 };
+  /// `is_second` the one before; `joins`, it is of the same two shapes as the contact before; `is_of_disc`, see
+  /// contact_geometry; `has_cell`, it is one of several points of a face: as find_faces() finds out.
+  enum : unsigned {
+    resists_turning = 1,
+    has_rim = 2,
+    has_cell = 4,
+    is_moved = 8,
+    may_be_line = 16,
+    is_second = 32,
+    joins = 64,
+    is_of_disc = 128
+  };
 
   void set(unsigned trait, bool on) { traits = on ? traits | trait : traits & ~trait; }
 };
@@ -45,14 +56,16 @@ struct RobotState {
   const double* targets[target_kinds] = {};  ///< by Drive
   const double* friction_losses = nullptr;
   const double* armature_losses = nullptr;
-  const Mass* masses = nullptr;             ///< of its bodies
-  double borne_mass = 0;                    ///< kg: what its contacts may have to bear, at least its own
-  double radius = 0;                        ///< m: of gyration
-  const KernelContact* contacts = nullptr;  ///< by body, in rising order
+  const Mass* masses = nullptr;       ///< of its bodies
+  double borne_mass = 0;              ///< kg: what its contacts may have to bear, at least its own
+  double radius = 0;                  ///< m: of gyration
+  KernelContact* contacts = nullptr;  ///< by body, in rising order
   int contact_count = 0;
-  std::uint64_t contact_bodies = 0;    ///< their bodies, eight bits each; 0: there are none, or they need more
-  const double* wrenches = nullptr;    ///< force and torque on each body at its origin, world axes; null: none
-  double* contact_wrenches = nullptr;  ///< out: force and torque of each contact at its point
+  std::uint64_t contact_bodies = 0;        ///< their bodies, eight bits each; 0: there are none, or they need more
+  std::uint64_t contact_faces = 0;         ///< the same of KernelContact::face; 0: there are none
+  const double* wrenches = nullptr;        ///< force and torque on each body at its origin, world axes; null: none
+  double* const* body_wrenches = nullptr;  ///< out, or null: the same of all contacts of each body that has some
+  double* contact_wrenches = nullptr;      ///< out, or null: force and torque of each contact at its point
   /// Kept from step to step, of the base (world axes, linear and angular) and of each joint: how the last step changed
   /// their velocities, where it was smooth. None of a robot that is one body.
   double* accelerations = nullptr;

@@ -6,7 +6,7 @@
 
 #include "contact_travel.hpp"
 #include "contact_trial.hpp"
-#include "plugins/common/contact_geometry/pressure_cells.hpp"
+#include "faces.hpp"
 
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
@@ -18,8 +18,8 @@ using lane::any, lane::as_read, lane::count_of, lane::load_rows, lane::Places;
 inline constexpr double no_contact[11] = {0, 0, 0, 0, 0, 1, -1}, at_rest[6] = {};
 /// Read alone: no lane that has none stores what it keeps.
 inline double nothing_kept[kept_numbers] = {};
-inline constexpr ContactExtent no_extent;
-inline constexpr KernelContact no_kernel_contact{.place = no_contact, .kept = nothing_kept, .extent = &no_extent};
+inline ContactExtent no_extent;
+inline KernelContact no_kernel_contact{.place = no_contact, .kept = nothing_kept, .extent = &no_extent};
 
 template <class S>
 class Contacts {
@@ -193,12 +193,17 @@ class Contacts {
 
   /// The next contacts of all robots that are on the body with the lowest number make up a slot.
   void load_contacts(const RobotState* robots, int count) {
-    const KernelContact *next[count_of<S>], *end[count_of<S>];
+    KernelContact *next[count_of<S>], *end[count_of<S>];
     double* wrench[count_of<S>];
     int body_of_next[count_of<S>];
     const int none = batch_.structure.count;
     alike_ = count == count_of<S> && robots[0].contact_bodies != 0;
-    for (int i = 1; alike_ && i < count; ++i) alike_ = robots[i].contact_bodies == robots[0].contact_bodies;
+    for (int i = 1; alike_ && i < count; ++i)
+      alike_ =
+          robots[i].contact_bodies == robots[0].contact_bodies && robots[i].contact_faces == robots[0].contact_faces;
+    for (int i = 0; !alike_ && i < count; ++i)
+      if (robots[i].contact_faces != 0) find_faces(robots[i].contacts, robots[i].contact_count);
+    Face<S> face;
     for (int i = 0; i < count_of<S>; ++i) {
       next[i] = end[i] = nullptr, wrench[i] = nullptr;
       if (i < count) next[i] = robots[i].contacts, end[i] = next[i] + robots[i].contact_count;
@@ -214,6 +219,8 @@ class Contacts {
       slot.body = body, slot.which = 0;
       const KernelContact* of_robot[count_of<S>];
       if (alike_) {
+        if (next[0]->face > 0 && !face.find(next))
+          for (int i = 0; i < count_of<S>; ++i) find_faces(next[i], next[i]->face);
         for (int i = 0; i < count_of<S>; ++i) {
           of_robot[i] = next[i]++;
           slot.wrench.at[i] = wrench[i], wrench[i] += 6;
@@ -237,12 +244,13 @@ class Contacts {
         work_.acts_on[body] = work_.external + body;
         set_wrench(body, work_.external[body]);
       }
-      load_slot(of_robot, slot);
+      load_slot(of_robot, face.next(), slot);
       add_terms<true>(slot);
     }
   }
 
-  void load_slot(const KernelContact* const (&of_robot)[count_of<S>], ContactSlot<S>& slot) {
+  /// `cell`: m, world: from the points to where their friction acts, of faces of alike robots; else null.
+  void load_slot(const KernelContact* const (&of_robot)[count_of<S>], const V3<S>* cell, ContactSlot<S>& slot) {
     Places<S> place, kept;
     unsigned traits = 0, common = ~0u;
     for (int i = 0; i < count_of<S>; ++i) {
@@ -254,7 +262,7 @@ class Contacts {
     if (traits & KernelContact::resists_turning)
       for (int i = 0; i < count_of<S>; ++i)
         slot.resists_turning |= (of_robot[i]->traits & KernelContact::resists_turning ? 1u : 0u) << i;
-    const bool has_rims = traits & KernelContact::has_rim, has_cells = traits & KernelContact::has_cell,
+    const bool has_rims = traits & KernelContact::has_rim, has_cells = cell || traits & KernelContact::has_cell,
                has_lines = traits & KernelContact::may_be_line,
                are_ends = alike_ && common & KernelContact::may_be_line,
                are_second = are_ends && common & KernelContact::is_second;  // loaded with the first
@@ -308,7 +316,10 @@ class Contacts {
     if (slot.has_cells) {
       slot.axis = {at[3], at[4], at[5]};
       V3<S> shift{zero, zero, zero};
-      if (has_cells) shift = lane::load_vector(places_of(of_robot, [](auto& c) { return c.extent->shift; }));
+      if (cell)
+        shift = *cell;
+      else if (has_cells)
+        shift = lane::load_vector(places_of(of_robot, [](auto& c) { return c.extent->shift; }));
       if (are_ends)
         shift += shift_in_line(at, other_end);
       else if (has_lines)

@@ -252,10 +252,10 @@ void Robot::prepare(double dt) {
   if (interpolates()) advance_targets(dt);
   sum_wrenches();
   add_self_contacts(dt);
-  contacts_.find_cells();
   state_.contacts = contacts_.contacts().data();
   state_.contact_count = int(contacts_.contacts().size());
   state_.contact_bodies = contacts_.bodies();
+  state_.contact_faces = contacts_.faces();
   state_.is_pushed = contacts_.touches_robots() || !self_contacts_.contacts().empty();
   if (contact_wrenches_.size() < 6 * contact_count()) contact_wrenches_.resize(2 * 6 * contact_count());
   state_.contact_wrenches = contact_count() > 0 ? contact_wrenches_.data() : nullptr;

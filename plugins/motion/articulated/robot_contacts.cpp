@@ -110,14 +110,14 @@ void RobotContacts::find(const TouchedBodies& bodies) {
     if (!link) continue;
     KernelContact& contact = contacts_.emplace_back();
     contact.place = c.point.data();
-    contact.body = link->body;
+    contact.body = std::int16_t(link->body);
     const Vec3 rim = link->orientation * bodies[c.self].shapes[c.self_shape].rim;
     std::copy_n(rim.data(), 3, extents_.emplace_back().rim);
     contact.set(KernelContact::has_rim, !rim.isZero(0));
     contact.set(KernelContact::resists_turning, c.surface.rolling_resistance > 0 || c.surface.spinning_resistance > 0);
-    places_.push_back({i, link->loaded_link,
-                       contact_geometry::is_of_disc(bodies[c.self].shapes[c.self_shape], other.shapes[c.other_shape]),
-                       false});
+    contact.set(KernelContact::is_of_disc,
+                contact_geometry::is_of_disc(bodies[c.self].shapes[c.self_shape], other.shapes[c.other_shape]));
+    places_.push_back({i, link->loaded_link});
   }
   sort_by_body();
   find_bodies();
@@ -188,47 +188,28 @@ void RobotContacts::keep_what_lasts(const TouchedBodies& bodies) {
     contacts_[i].kept = (*kept_)[i].point.data(), contacts_[i].extent = &extents_[i];
 }
 
-/// Two contacts of two shapes may be the ends of a line, which the kernel finds out; of more it is found here.
+/// Two contacts of two shapes may be the ends of a line, more the corners of a face: kernels find that out.
 void RobotContacts::find_joins() {
+  constexpr int bits = 8;
   for (std::size_t i = 1; i < contacts_.size(); ++i) {
     const Contact &before = contact(i - 1), &c = contact(i);
-    places_[i].joins = c.self == before.self && c.other == before.other && c.self_shape == before.self_shape &&
-                       c.other_shape == before.other_shape;
+    contacts_[i].set(KernelContact::joins, c.self == before.self && c.other == before.other &&
+                                               c.self_shape == before.self_shape &&
+                                               c.other_shape == before.other_shape);
   }
-  has_faces_ = false;
-  const auto joins = [this](std::size_t, std::size_t i) { return places_[i].joins; };
+  faces_ = 0;
+  const auto joins = [this](std::size_t, std::size_t i) { return contacts_[i].traits & KernelContact::joins; };
   contact_geometry::each_patch(contacts_.size(), joins, [this](std::size_t begin, std::size_t end) {
-    has_faces_ = has_faces_ || end > begin + 2;
+    for (std::size_t i = begin; i < end; ++i) {
+      contacts_[i].face = std::int16_t(i == begin && end > begin + 2 ? end - begin : 0);
+      faces_ |= contacts_[i].face > 0 ? (std::uint64_t(contacts_[i].face) & 0xff) << i % bits * bits : 0;
+    }
     if (end != begin + 2) return;
     for (std::size_t i = begin; i < end; ++i) {
       contacts_[i].partner = contacts_[begin + end - 1 - i].place;
       contacts_[i].set(KernelContact::may_be_line, true);
       contacts_[i].set(KernelContact::is_second, i > begin);
     }
-  });
-}
-
-void RobotContacts::find_cells() {
-  if (!has_faces_) return;
-  const auto belongs = [&](std::size_t begin, std::size_t i) {
-    const double *const a = contacts_[begin].place + 3, *const b = contacts_[i].place + 3;
-    return places_[i].joins && a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > contact_geometry::same_direction;
-  };
-  contact_geometry::each_patch(contacts_.size(), belongs, [&](std::size_t begin, std::size_t end) {
-    KernelContact* const first = contacts_.data() + begin;
-    ContactExtent* const extents = extents_.data() + begin;
-    if (first->partner) return;
-    first->set(KernelContact::has_cell, end > begin + 1);
-    if (end == begin + 1) {
-      std::fill_n(extents->shift, 3, 0.0);
-      return;
-    }
-    contact_geometry::find_cells(
-        end - begin, places_[begin].is_of_disc, [&](std::size_t i) { return first[i].place; },
-        [&](std::size_t i, const Vec3& cell) {
-          for (int n = 0; n < 3; ++n) extents[i].shift[n] = cell[n];
-          first[i].set(KernelContact::has_cell, true);
-        });
   });
 }
 

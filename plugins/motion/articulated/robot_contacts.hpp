@@ -41,8 +41,6 @@ class RobotContacts {
 
   /// Finds the contacts of the step that begins. [step, before any robot moves]
   void look_up(const TouchedBodies& bodies);
-  /// Where friction of the points of lines and faces acts. [step, before the robot moves]
-  void find_cells();
   /// Nothing is known of earlier steps. Takes the memory that steps need. [setup]
   void start();
   /// Another motion has moved the robot so far.
@@ -51,9 +49,11 @@ class RobotContacts {
   }
 
   /// By body, in rising order.
+  std::vector<KernelContact>& contacts() { return contacts_; }
   const std::vector<KernelContact>& contacts() const { return contacts_; }
-  /// See RobotState::contact_bodies.
+  /// See RobotState::contact_bodies and contact_faces.
   std::uint64_t bodies() const { return bodies_; }
+  std::uint64_t faces() const { return faces_; }
   /// Whether there are contacts with other robots in the list.
   bool touches_robots() const { return touches_robots_; }
   /// That of the list which contact `i` is.
@@ -86,8 +86,6 @@ class RobotContacts {
   struct Place {
     std::uint32_t in_list = 0;
     std::uint32_t link = 0;  ///< loaded link
-    bool is_of_disc = false;
-    bool joins = false;  ///< of the same two shapes as the contact before
   };
 
   ListIn<Contact> list_;
@@ -96,9 +94,8 @@ class RobotContacts {
   std::uint64_t revision_ = no_revision;  ///< of the list, when contacts were found
   std::size_t length_ = 0;                ///< the same
   bool touches_robots_ = false;
-  bool has_faces_ = false;  ///< more than two contacts are of the same two shapes
   std::vector<KernelContact> contacts_;
-  std::uint64_t bodies_ = 0;
+  std::uint64_t bodies_ = 0, faces_ = 0;
   std::vector<ContactExtent> extents_;  ///< of contacts
   std::vector<Place> places_;           ///< of contacts
   std::vector<OfLink> of_links_;
