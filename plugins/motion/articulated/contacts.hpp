@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "contact_sums.hpp"
 #include "contact_travel.hpp"
 #include "contact_trial.hpp"
 #include "faces.hpp"
@@ -26,7 +27,7 @@ class Contacts {
  public:
   /// Finds which contacts go together, and what they and wrenches add to their bodies. Bodies have been placed.
   Contacts(const Batch& batch, const RobotState* robots, int count, const Masses<S>& masses, Work<S>& work)
-      : batch_(batch), work_(work), gravity_(splat<S>(batch.gravity)) {
+      : batch_(batch), work_(work), gravity_(splat<S>(batch.gravity)), sums_(robots, count) {
     for (int k = 0; k < batch.structure.count; ++k) work.acts_on[k] = nullptr;
     set_law(robots, count);
     load_wrenches(robots, count);
@@ -83,6 +84,7 @@ class Contacts {
   /// next trial.
   bool settle(Search search) {
     bool is_changed = false;
+    sums_.start();
     for (int i = 0; i < work_.contact_count; ++i) {
       ContactSlot<S>& slot = work_.contacts[i];
       const ContactOutcome<S> outcome = outcome_of(slot);
@@ -93,11 +95,14 @@ class Contacts {
       work_.changed[slot.body] = true;
       revise(slot, outcome, m, search);
     }
+    if (!is_changed) sums_.tell();
     return is_changed;
   }
   /// The same, of the last trial.
   void settle() {
+    sums_.start();
     for (int i = 0; i < work_.contact_count; ++i) keep(work_.contacts[i], outcome_of(work_.contacts[i]));
+    sums_.tell();
   }
 
  private:
@@ -208,6 +213,7 @@ class Contacts {
       next[i] = end[i] = nullptr, wrench[i] = nullptr;
       if (i < count) next[i] = robots[i].contacts, end[i] = next[i] + robots[i].contact_count;
       if (i < count) wrench[i] = robots[i].contact_wrenches;
+      tell_each_ |= unsigned(wrench[i] != nullptr) << i;
       body_of_next[i] = next[i] == end[i] ? none : next[i]->body;
     }
     for (work_.contact_count = 0;;) {
@@ -223,7 +229,8 @@ class Contacts {
           for (int i = 0; i < count_of<S>; ++i) find_faces(next[i], next[i]->face);
         for (int i = 0; i < count_of<S>; ++i) {
           of_robot[i] = next[i]++;
-          slot.wrench.at[i] = wrench[i], wrench[i] += 6;
+          slot.wrench.at[i] = wrench[i];
+          if (wrench[i]) wrench[i] += 6;
         }
         slot.which = lane::all_lanes<S>;
         body_of_next[0] = next[0] == end[0] ? none : next[0]->body;
@@ -234,7 +241,7 @@ class Contacts {
           slot.wrench.at[i] = wrench[i];
           slot.which |= unsigned(has_one) << i;
           if (!has_one) continue;
-          wrench[i] += 6;
+          if (wrench[i]) wrench[i] += 6;
           body_of_next[i] = ++next[i] == end[i] ? none : next[i]->body;
         }
       }
@@ -282,7 +289,8 @@ class Contacts {
     if (traits & KernelContact::is_moved) forget_what_squeezes(of_robot, slot);
     find_what_it_bears(slot);
     const ContactLaw<S>& law = law_of(slot);
-    const V3<S> arm = transposed_times(body.axes, point - body.origin);
+    slot.lever = point - body.origin;
+    const V3<S> arm = transposed_times(body.axes, slot.lever);
     ContactPoint<S>& p = slot.point;
     p.normal = transposed_times(body.axes, V3<S>{at[3], at[4], at[5]});
     const V3<S> last{before[3], before[4], before[5]};
@@ -434,7 +442,9 @@ class Contacts {
       const V3<S> t = body.axes * select(is_on, turn_after(slot, body, load), none);
       store_numbers(slot.kept, 11, {t.x, t.y, t.z}, slot.resists_turning);
     }
-    store_numbers(slot.wrench, 0, {force.x, force.y, force.z, moment.x, moment.y, moment.z}, slot.which);
+    if (const unsigned told = slot.which & tell_each_; told != 0)
+      store_numbers(slot.wrench, 0, {force.x, force.y, force.z, moment.x, moment.y, moment.z}, told);
+    sums_.add(slot.body, slot.which, force, slot.lever, moment);
   }
 
   /// A displacement whose spring does no more than `limit`.
@@ -461,10 +471,12 @@ class Contacts {
   double mean_part_ = 0;  ///< of mean loads: what the last step makes of them
   Places<S> wrenches_;
   bool has_wrenches_ = false;
-  bool alike_ = false;  ///< contacts of all robots are on the same bodies
-  S ends_[2][9];        ///< places of both ends of a line, of robots that are alike
-  S hits_{0};           ///< above 0 where something is hit
-  S moved_{0};          ///< above 0 where something that is touched moves
+  bool alike_ = false;      ///< contacts of all robots are on the same bodies
+  unsigned tell_each_ = 0;  ///< robots that are told the wrench of each contact
+  ContactSums<S> sums_;
+  S ends_[2][9];  ///< places of both ends of a line, of robots that are alike
+  S hits_{0};     ///< above 0 where something is hit
+  S moved_{0};    ///< above 0 where something that is touched moves
   bool knows_pushes_ = false;
   V3<S> pushed_alpha_, pushed_a_;  ///< by wrenches alone, where pushes are known
   V3<S> force_, torque_;

@@ -128,6 +128,7 @@ void Robot::connect_links(Connector& c) {
     LoadedLink& link = links_.emplace_back();
     link.external = c.read_sum(loaded.object, keys::external_wrench);
     if (loaded.has_shapes) link.contact = c.derived(loaded.object, keys::contact_wrench);
+    link.is_body = loaded.link == rigid_.bodies[loaded.placement.body].link;
   }
   wrenches_.resize(6 * rigid_.bodies.size());
 }
@@ -228,7 +229,7 @@ void Robot::start() {
   self_contacts_.start();
   constexpr std::size_t of_a_link = 8;
   contact_wrenches_.resize(std::max(contact_wrenches_.size(), 6 * of_a_link * links_.size()));
-  touching_links_.reserve(links_.size());
+  touching_links_.reserve(links_.size()), touching_wrenches_.reserve(links_.size());
   links_are_clear_ = false;
   only_contacts_push_ = std::all_of(links_.begin(), links_.end(), [this](const LoadedLink& link) {
     return link.external.size() <= (has_contact_law_ ? 1 : 0);
@@ -257,8 +258,10 @@ void Robot::prepare(double dt) {
   state_.contact_bodies = contacts_.bodies();
   state_.contact_faces = contacts_.faces();
   state_.is_pushed = contacts_.touches_robots() || !self_contacts_.contacts().empty();
-  if (contact_wrenches_.size() < 6 * contact_count()) contact_wrenches_.resize(2 * 6 * contact_count());
-  state_.contact_wrenches = contact_count() > 0 ? contact_wrenches_.data() : nullptr;
+  find_touching_links();
+  const bool tells_each = contact_count() > 0 && (tells_contacts_ || !state_.body_wrenches);
+  if (tells_each && contact_wrenches_.size() < 6 * contact_count()) contact_wrenches_.resize(2 * 6 * contact_count());
+  state_.contact_wrenches = tells_each ? contact_wrenches_.data() : nullptr;
   fetch_contacts();
 }
 
@@ -271,11 +274,7 @@ void Robot::fetch_contacts() const {
     __builtin_prefetch(contact.kept, 1);
     __builtin_prefetch(contact.kept + line, 1);
   }
-  for (std::size_t i = 0; i < 6 * contact_count(); i += line) __builtin_prefetch(contact_wrenches_.data() + i, 1);
-  for (const std::uint32_t i : touching_links_) {
-    __builtin_prefetch(links_[i].contact.get(), 1);
-    __builtin_prefetch(links_[i].pose.get());
-  }
+  for (double* const wrench : touching_wrenches_) __builtin_prefetch(wrench, 1);
 }
 
 void Robot::advance_targets(double dt) {
@@ -321,6 +320,28 @@ void Robot::take_impacts(const Step& step) {
                                  1 / inertia.mass, *correction);
 }
 
+/// Kernels tell the sums of contacts of bodies; of those with several links, export_contacts() finds them.
+void Robot::find_touching_links() {
+  if (!links_are_clear_)
+    for (const LoadedLink& link : links_)
+      if (link.contact) *link.contact = Wrench{};
+  links_are_clear_ = true;
+  const std::span<const RobotContacts::OfLink> touching = contacts_.of_links();
+  bool are_bodies = !touching.empty();
+  touching_wrenches_.clear();
+  for (std::size_t k = 0; k < touching.size(); ++k) {
+    const std::uint32_t number = touching[k].link;
+    if (k == touching_links_.size() || touching_links_[k] != number) {
+      clear_contact_wrenches(k);
+      touching_links_.push_back(number);
+    }
+    touching_wrenches_.push_back(lane::numbers(links_[number].contact.get()));
+    are_bodies = are_bodies && links_[number].is_body;
+  }
+  clear_contact_wrenches(touching.size());
+  state_.body_wrenches = are_bodies ? touching_wrenches_.data() : nullptr;
+}
+
 /// Those from number `first` on of links that touched in the last step, and now perhaps do not.
 void Robot::clear_contact_wrenches(std::size_t first) {
   for (std::size_t k = first; k < touching_links_.size(); ++k) *links_[touching_links_[k]].contact = Wrench{};
@@ -345,23 +366,13 @@ Wrench Robot::sum_of_contacts(std::size_t begin, std::size_t end, const Vec3& or
 
 void Robot::export_contacts() {
   if (tells_contacts_) told_.clear();
-  if (!links_are_clear_)
-    for (const LoadedLink& link : links_)
-      if (link.contact) *link.contact = Wrench{};
-  links_are_clear_ = true;
   const std::size_t count = contact_count();
-  const std::span<const RobotContacts::OfLink> touching = contacts_.of_links();
   std::size_t i = 0;
-  for (std::size_t k = 0; k < touching.size(); ++k) {
-    const auto [number, end] = touching[k];
-    if (k == touching_links_.size() || touching_links_[k] != number) {
-      clear_contact_wrenches(k);
-      touching_links_.push_back(number);
+  if (!state_.body_wrenches)
+    for (const auto [number, end] : contacts_.of_links()) {
+      *links_[number].contact = sum_of_contacts(i, end, origin_of(number));
+      i = end;
     }
-    *links_[number].contact = sum_of_contacts(i, end, origin_of(number));
-    i = end;
-  }
-  clear_contact_wrenches(touching.size());
   for (i = 0; tells_contacts_ && i < count; ++i) {
     const Contact& c = contacts_.contact(i);
     told_.push_back({c.self, c.other, c.point, c.normal, c.depth, wrench_of_contact(i)});

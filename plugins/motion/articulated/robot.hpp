@@ -76,6 +76,7 @@ class Robot {
     Out<Wrench> contact;  ///< none without shapes
     Out<Wrench> applied;  ///< where somebody reads it
     In<Pose> pose, pose_of_body;
+    bool is_body = false;  ///< its frame is that of its body
   };
 
   void connect_joints(Connector& c, const RobotView& view, const Parameters& p);
@@ -89,6 +90,7 @@ class Robot {
   void sum_wrenches();
   void add_self_contacts(double dt);
   void fetch_contacts() const;
+  void find_touching_links();
   void clear_contact_wrenches(std::size_t first);
   void export_self_contacts();
   Wrench wrench_of_contact(std::size_t i) const {
@@ -118,7 +120,8 @@ class Robot {
   bool has_contact_law_ = false;   ///< a contact algorithm adds to wrenches
   bool tells_contacts_ = false, tells_applied_ = false;
   bool only_contacts_push_ = false;            ///< nothing but the contact algorithm adds to wrenches
-  std::vector<std::uint32_t> touching_links_;  ///< in links_, that contacts have pushed in the last step
+  std::vector<std::uint32_t> touching_links_;  ///< in links_, that contacts push in this step or the last
+  std::vector<double*> touching_wrenches_;     ///< of those that contacts with others push in this step
   bool links_are_clear_ = false;
   ListOut<ContactWrench> told_;
   Vec3 start_ = Vec3::Zero();  ///< m: where the base was when the step began

@@ -25,6 +25,7 @@ struct ContactSlot {
   ContactStep<S> step;
   V3<S> axis;                ///< the normal in the world, of those that have cells
   V3<S> way;                 ///< m, world: of the point since the last step
+  V3<S> lever;               ///< m, world: from the body's origin to the point
   bool bears_more = false;   ///< in some robot, than the robot weighs
   S more;                    ///< so many times as much, at least 1
   S mean_load;               ///< N: of the last steps
