@@ -40,7 +40,7 @@ void add_at_levers(Block& block, const Mat3& k, const Vec3& a, const Vec3& b) {
 }
 
 /// Of the limit of friction: of what it holds, and of itself, since forces are brought into the cone at the end.
-constexpr double precision = 2e-3, near = 1e-2;
+constexpr double precision = 2e-3, near = 1e-3;
 /// m/s: of the solution of a linear system, and of what changes no force that counts.
 constexpr double least_speed = 1e-8, slight = 1e-6;
 
@@ -116,12 +116,15 @@ void ContactSolver::add_terms(SolverContact& c) {
   c.yields.setZero();
   if (!c.pushes && c.hold == 0) return;
   constexpr double straight = 0.98;  // of what does not change along the slip: a system is never singular
-  const Vec3 velocity = velocity_in(c, velocities_);
+  const Vec3& velocity = c.velocity;
   const auto [load, drag] = reaction_at(c, velocity);
   const double normal = c.pushes ? step_ : 0, tangential = step_ * c.hold;
   Mat3& k = c.yields;
   k = damper(normal * c.along, tangential * c.across, c.normal);
-  if (c.hold < 1) k -= (straight * tangential * c.across / drag.squaredNorm()) * drag * drag.transpose();
+  if (c.hold < 1) {
+    const Vec3 less = (straight * tangential * c.across / drag.squaredNorm()) * drag;
+    for (int j = 0; j < 3; ++j) k.col(j) -= drag[j] * less;
+  }
   c.impulse = (normal * load) * c.normal - tangential * drag + k * (velocity + c.touched);
   const bool is_one_point = c.moves_body && c.moves_other && c.cell.isZero(0);
   if (is_one_point) return add_damper(c, k, c.impulse, Vec3::Zero(), true, true);
@@ -171,33 +174,24 @@ bool ContactSolver::differs(const SolverContact& c, const Reaction& r, double ho
 
 /// Whether all contacts do at the solution of the linear system what it takes for granted, so that it is the minimum.
 bool ContactSolver::is_solution() const {
-  return std::all_of(contacts_.begin(), contacts_.end(), [this](const SolverContact& c) {
+  return std::all_of(contacts_.begin(), contacts_.end(), [](const SolverContact& c) {
     if (c.only_damps) return true;
-    const Reaction r = reaction_at(c, velocity_in(c, solution_));
+    const Reaction r = reaction_at(c, c.velocity + c.way);
     return !differs(c, r, part_within(r.drag, c.limit));
   });
 }
 
 /// What the contact does at the velocities so far. Returns whether that is something else than what was taken for
 /// granted.
-bool ContactSolver::revise(SolverContact& c) const {
+bool ContactSolver::revise(SolverContact& c) {
   if (c.only_damps) return false;
-  const Reaction r = reaction_at(c, velocity_in(c, velocities_));
+  const Reaction r = reaction_at(c, c.velocity);
   const double load = r.load, hold = part_within(r.drag, c.limit);
   const bool changed = differs(c, r, hold);
   c.pushes = load > 0;
   c.hold = hold;
   c.load = std::max(load, 0.0);
   return changed;
-}
-
-/// Of all contacts, from the velocities so far to the solution.
-void ContactSolver::find_ways() {
-  ways_.clear();
-  for (const SolverContact& c : contacts_) {
-    const Vec3 before = velocity_in(c, velocities_);
-    ways_.push_back({before, velocity_in(c, solution_) - before});
-  }
 }
 
 /// J: how the sum of all potentials changes from the velocities so far towards the solution, at `part` of the way.
@@ -207,12 +201,10 @@ double ContactSolver::slope_at(double part) const {
     const BlockSystem::Vector way = solution_[i] - velocities_[i];
     slope += way.dot(bodies_[i].mass * (velocities_[i] + part * way) - bodies_[i].momentum);
   }
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const SolverContact& c = contacts_[i];
-    const Vec3& way = ways_[i].way;
-    const auto [load, drag] = reaction_at(c, ways_[i].before + part * way);
-    slope -= step_ * (c.only_damps ? load : std::max(load, 0.0)) * c.normal.dot(way);
-    slope += step_ * (c.only_damps ? 1 : part_within(drag, c.limit)) * drag.dot(way - along(way, c.normal));
+  for (const SolverContact& c : contacts_) {
+    const auto [load, drag] = reaction_at(c, c.velocity + part * c.way);
+    slope -= step_ * (c.only_damps ? load : std::max(load, 0.0)) * c.normal.dot(c.way);
+    slope += step_ * (c.only_damps ? 1 : part_within(drag, c.limit)) * drag.dot(c.way);  // drag is across the normal
   }
   return slope;
 }
@@ -220,13 +212,14 @@ double ContactSolver::slope_at(double part) const {
 /// Goes towards the solution of the linear system, about as far as potentials fall. Returns whether that is all the
 /// way.
 bool ContactSolver::approach_solution() {
+  for (SolverContact& c : contacts_) c.way = velocity_in(c, solution_) - c.velocity;
   if (is_solution()) {
     velocities_.assign(solution_.begin(), solution_.end());
+    for (SolverContact& c : contacts_) c.velocity += c.way;
     return true;
   }
   constexpr double flat = 0.1;  // of the slope at the start: as good as the minimum
   double part = 1;
-  find_ways();
   const double most = -flat * slope_at(0);
   if (most > 0 && slope_at(1) > most) {
     double low = 0, high = 1;
@@ -238,12 +231,13 @@ bool ContactSolver::approach_solution() {
     }
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) velocities_[i] += part * (solution_[i] - velocities_[i]);
+  for (SolverContact& c : contacts_) c.velocity += part * c.way;
   return part == 1;
 }
 
 /// Newton's method, with the limits that friction has. `left`: of all linear systems that may be solved in a step.
-void ContactSolver::find_velocities(int& left) {
-  constexpr int most_iterations = 12;
+/// Returns whether it has found the minimum.
+bool ContactSolver::find_velocities(int most_iterations, int& left) {
   double mass = 0;
   for (const Body& b : bodies_) mass += b.mass(0, 0);
   bool changed = true;
@@ -254,18 +248,34 @@ void ContactSolver::find_velocities(int& left) {
     changed = !approach_solution();
     for (SolverContact& c : contacts_) changed = revise(c) || changed;
   }
+  return !changed;
+}
+
+/// How far limits of friction lie before where they lead to, by what their last change has changed of that.
+double ContactSolver::part_of_last_change() const {
+  constexpr double most = 0.5;
+  double change = 0, square = 0;
+  for (const SolverContact& c : contacts_) {
+    if (c.limit_before < 0) return 0;
+    const double lacks = c.friction * c.load - c.limit, lacked = c.limit_found - c.limit_before;
+    change += lacks * (lacks - lacked), square += (lacks - lacked) * (lacks - lacked);
+  }
+  return square > 0 ? std::clamp(change / square, 0.0, most) : 0;
 }
 
 /// Takes `part` of what limits of friction are by now. Returns whether that of some contact that slides has changed.
 bool ContactSolver::revise_limits(double part) {
   bool changed = false;
+  const double back = part_of_last_change();
   for (SolverContact& c : contacts_) {
     const double limit = c.friction * c.load;
-    const Vec3 drag = reaction_at(c, velocity_in(c, velocities_)).drag;
+    const Vec3 drag = reaction_at(c, c.velocity).drag;
     const bool slides = c.has_friction_in_it() && (c.hold < 1 || drag.norm() > limit);
     const double most = std::max(limit, c.limit);
     changed = changed || (slides && std::abs(limit - c.limit) > near * most + c.across * slight);
-    c.limit += part * (limit - c.limit);
+    const double next = std::max(limit - back * (limit - c.limit_found), 0.0);
+    c.limit_before = c.limit, c.limit_found = limit;
+    c.limit += part * (next - c.limit);
     if (!c.only_damps) c.hold = part_within(drag, c.limit);
   }
   return changed;
@@ -285,17 +295,20 @@ void ContactSolver::find_force(SolverContact& c) const {
 }
 
 std::span<const SolverContact> ContactSolver::solve() {
-  constexpr int sure_iterations = 3, most_systems = 96;
+  constexpr int sure_iterations = 12, eager_iterations = 24, most_of_newton = 12, most_systems = 96;
   system_.start(std::uint32_t(bodies_.size()));
   right_.resize(bodies_.size());
   for (SolverContact& c : contacts_)
     if (c.other != SolverContact::none) c.coupling = system_.couple(c.body, c.other);
   system_.find_order();
-  for (SolverContact& c : contacts_) revise(c);
+  for (SolverContact& c : contacts_) {
+    c.velocity = velocity_in(c, velocities_);
+    revise(c);
+  }
   int left = most_systems;
   for (int iteration = 1; left > 0; ++iteration) {
-    find_velocities(left);
-    if (!revise_limits(iteration > sure_iterations ? 0.5 : 1)) break;
+    const bool is_found = find_velocities(iteration > eager_iterations ? most_of_newton : 1, left);
+    if (!revise_limits(iteration > sure_iterations ? 0.5 : 1) && is_found) break;
   }
   for (SolverContact& c : contacts_) find_force(c);
   return contacts_;

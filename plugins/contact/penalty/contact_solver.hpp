@@ -12,7 +12,9 @@
 // bodies that are connected. Which contacts push, and how far friction holds, is found by Newton's method with a search
 // along each of its steps, as in Todorov, Convex and analytically-invertible dynamics with contacts and constraints,
 // ICRA 2014: with given limits of friction the velocities are where a convex function has its minimum. The limits are
-// those of the loads found, by a second iteration around this one.
+// those of the loads found: they follow after each of its steps, all together by the secant method (Anderson, Iterative
+// procedures for nonlinear integral equations, J. ACM 12, 1965, with one step of memory). Where that does not settle,
+// they only follow when velocities have been found for them.
 #pragma once
 
 #include "block_system.hpp"
@@ -44,8 +46,10 @@ struct SolverContact {
 
   // what is found
   bool pushes = true;
-  double hold = 1;              ///< the part of what friction would do without its limit
-  double load = 0;              ///< N, along the normal
+  double hold = 1;                            ///< the part of what friction would do without its limit
+  double load = 0;                            ///< N, along the normal
+  double limit_before = -1, limit_found = 0;  ///< N: the limit before `limit`, and what it led to; -1: there is none
+  Vec3 velocity = Vec3::Zero(), way = Vec3::Zero();  ///< m/s: of the point, so far, and from there to the solution
   Mat3 yields = Mat3::Zero();   ///< N s: in the last linear system, how its impulse falls with velocity
   Vec3 impulse = Vec3::Zero();  ///< N s: the same, at velocity 0
   double away = 0;              ///< m/s: at which the points part at the end of the step
@@ -85,10 +89,10 @@ class ContactSolver {
   static Reaction reaction_at(const SolverContact& c, const Vec3& velocity);
   static bool differs(const SolverContact& c, const Reaction& r, double hold);
   bool is_solution() const;
-  bool revise(SolverContact& c) const;
-  void find_velocities(int& left);
+  static bool revise(SolverContact& c);
+  bool find_velocities(int most_iterations, int& left);
   bool revise_limits(double part);
-  void find_ways();
+  double part_of_last_change() const;
   double slope_at(double part) const;
   bool approach_solution();
   void find_force(SolverContact& c) const;
@@ -97,10 +101,6 @@ class ContactSolver {
   std::vector<Body> bodies_;
   std::vector<SolverContact> contacts_;
   std::vector<BlockSystem::Vector> velocities_, solution_, right_;
-  struct Way {
-    Vec3 before, way;  ///< m/s
-  };
-  std::vector<Way> ways_;  ///< of contacts, see find_ways()
   BlockSystem system_;
 };
 
