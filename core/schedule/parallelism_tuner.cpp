@@ -21,7 +21,7 @@ void ParallelismTuner::learn(std::uint64_t duration) {
   constexpr double growth_limit = 1.1;  // work that takes so much longer on one thread has grown
   ++runs_;
   if (state_ == State::settled) {
-    if (parallel_) watch(double(duration));
+    parallel_ ? watch(double(duration)) : watch_growth(double(duration));
     if (runs_ >= interval_) enter(State::serial);
     return;
   }
@@ -70,6 +70,13 @@ void ParallelismTuner::watch(double duration) {
   }
   suspected_ = serial_;
   enter(State::serial);
+}
+
+/// What one thread did fast enough may be more by now, as when robots meet, and worth several.
+void ParallelismTuner::watch_growth(double duration) {
+  constexpr double growth = 1.5;
+  total_ += std::min(duration, 0.25 * window * serial_);  // one outlier decides nothing
+  if (runs_ % window == 0 && std::exchange(total_, 0) > growth * window * serial_) enter(State::serial);
 }
 
 }  // namespace muro

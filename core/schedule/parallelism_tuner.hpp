@@ -7,8 +7,8 @@
 namespace muro {
 
 /// Finds out, now and then, whether runs of a plan take less time on several threads, by a trial: some runs on one
-/// thread, then as many on several. Between trials it watches what several threads need. Time decides who computes a
-/// result, never what it is.
+/// thread, then as many on several. Between trials it watches what several threads need, and whether one gets more to
+/// do. Time decides who computes a result, never what it is.
 class ParallelismTuner {
  public:
   /// Whether the next run is for several threads.
@@ -21,6 +21,7 @@ class ParallelismTuner {
   static constexpr std::uint32_t warm_up = 2, counted = 5;  ///< runs of each half of a trial
 
   void watch(double duration);
+  void watch_growth(double duration);
   void enter(State state);
   void settle(bool parallel, std::uint32_t first_interval);
 

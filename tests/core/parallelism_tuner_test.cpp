@@ -52,6 +52,14 @@ TEST(ParallelismTuner, KeepsSeveralThreadsWhenWorkDoublesAtOnce) {
   EXPECT_GT(runs.make(1'000), 950);
 }
 
+TEST(ParallelismTuner, TakesSeveralThreadsSoonWhenOneHasMoreToDo) {
+  Runs runs{.one = 5'000, .several = 6'000};
+  runs.make(30'000);
+  runs.one = 50'000, runs.several = 27'000;
+  runs.make(100);
+  EXPECT_GT(runs.make(1'000), 950);
+}
+
 TEST(ParallelismTuner, ReturnsToOneThreadWhenWorkShrinks) {
   Runs runs{.one = 16'000, .several = 9'000};
   runs.make(5'000);

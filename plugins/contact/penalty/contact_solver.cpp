@@ -13,7 +13,10 @@ using Block = BlockSystem::Block;
 
 /// A damper of `across`, and of `along` in the direction of `n`.
 MURO_INLINE Mat3 damper(double along, double across, const Vec3& n) {
-  return across * Mat3::Identity() + ((along - across) * n) * n.transpose();
+  const Vec3 more = (along - across) * n;
+  Mat3 k;
+  for (int j = 0; j < 3; ++j) k.col(j) = n[j] * more, k(j, j) += across;
+  return k;
 }
 
 /// Adds J_a' K J_b of a damper K in a point, at levers `a` and `b`, with J = (1, -r x).
