@@ -30,7 +30,7 @@ camera labels labels
   --size 1280x720 --out "$out/mixed_team.png"
 "$muro" render examples/soccer/soccer.yaml --at 1.45 --from=-1.9,-2.5,1.05 --to=0.75,0.35,0.05 --fov 52 --size 1280x640 \
   --out "$out/soccer.png"
-"$muro" render examples/soccer/match.yaml --at 72 --from=3.1,2.6,1 --to=4.25,0.85,0.12 --fov 53 --size 1280x720 \
+"$muro" render examples/soccer/match.yaml --at 114.88 --from=-3.3,-1.3,1.1 --to=-4.15,0.95,0.2 --fov 55 --size 1280x720 \
   --out "$out/match.png"
 
 allan=$(mktemp --suffix=.svg)

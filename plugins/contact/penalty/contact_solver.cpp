@@ -254,7 +254,8 @@ bool ContactSolver::find_velocities(int most_iterations, int& left) {
   return !changed;
 }
 
-/// How far limits of friction lie before where they lead to, by what their last change has changed of that.
+/// How much of what the last change of limits has made of loads the next one leaves out, so that both together lead
+/// as near as they can to limits that belong to their loads.
 double ContactSolver::part_of_last_change() const {
   constexpr double most = 0.5;
   double change = 0, square = 0;

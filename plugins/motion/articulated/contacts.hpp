@@ -20,7 +20,7 @@ inline constexpr double no_contact[11] = {0, 0, 0, 0, 0, 1, -1}, at_rest[6] = {}
 /// Read alone: no lane that has none stores what it keeps.
 inline double nothing_kept[kept_numbers] = {};
 inline ContactExtent no_extent;
-inline KernelContact no_kernel_contact{.place = no_contact, .kept = nothing_kept, .extent = &no_extent};
+inline const KernelContact no_kernel_contact{.place = no_contact, .kept = nothing_kept, .extent = &no_extent};
 
 template <class S>
 class Contacts {

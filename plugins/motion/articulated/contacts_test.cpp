@@ -67,6 +67,41 @@ TEST(ALightFoot, ThatADriveHasPutDownStaysDown) {
   }
 }
 
+/// Three links of one body: the base, and two feet that fixed joints hold, one behind the other.
+TEST(LinksOfOneBody, AreToldTheWrenchOfTheirOwnContacts) {
+  for (const int robots : {1, 8}) {  // alone, and as a pack
+    World w;
+    w.add_ground();
+    const RobotTree tree = test::tree_of([](RobotBuilder& b) {
+      const Shape box = Shape::box({0.1, 0.2, 0.1});
+      b.base("trunk");
+      b.set(keys::inertial, test::solid_box(3, {0.6, 0.2, 0.1}));
+      const auto foot = [&](const char* name, double x) {
+        b.translation({x, 0, -0.1});
+        b.body(name);
+        b.set_array(keys::collision_shapes, std::span<const Shape>(&box, 1));
+        b.end();
+      };
+      b.fork();
+      foot("front_foot", 0.2);
+      foot("rear_foot", -0.25);
+    });
+    for (int i = 0; i < robots; ++i) w.add("r" + std::to_string(i), tree, {{0, 1.0 * i, 0.15}, Quat::Identity()});
+    w.start();
+    w.run_for(1);
+    for (int i = 0; i < robots; ++i) {
+      const std::string name = "r" + std::to_string(i);
+      const Wrench front = w.world().value(name + "/front_foot", keys::contact_wrench),
+                   rear = w.world().value(name + "/rear_foot", keys::contact_wrench);
+      EXPECT_NEAR(front.force.z() + rear.force.z(), 3 * g, 1e-3);
+      EXPECT_NEAR(0.2 * front.force.z() - front.torque.y(), 0.25 * rear.force.z() + rear.torque.y(), 1e-3)
+          << "they balance about the trunk";
+      EXPECT_GT(front.force.z(), g) << i;
+      EXPECT_GT(rear.force.z(), g) << i;
+    }
+  }
+}
+
 TEST(Friction, IsACone) {
   for (const double degrees : {0.0, 20.0, 45.0, 70.0}) {
     const double angle = degrees * M_PI / 180, mass = 2, mu = 0.5;

@@ -119,7 +119,7 @@ MURO_INLINE JointPiece<S> guess(const JointLaw<S>& law, S v, S bound) {
     const MaskOf<S> gives_way = (bound > zero) | (bound < zero);
     const S pull = bound * law.effort - sign_of(v) * law.friction;
     return {select(gives_way, one, zero), select(gives_way, pull, zero), select(gives_way, law.damping, zero),
-            clamp(law.velocity, law.lowest, law.highest), bound * law.effort};
+            clamp(law.velocity, law.lowest, law.highest), zero};
   }
   const S friction = sign_of(v) * law.friction, wanted = law.pull - law.drag * v;
   const auto is_weak = abs(wanted) > law.effort;

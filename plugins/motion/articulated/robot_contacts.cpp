@@ -200,10 +200,9 @@ void RobotContacts::find_joins() {
   faces_ = 0;
   const auto joins = [this](std::size_t, std::size_t i) { return contacts_[i].traits & KernelContact::joins; };
   contact_geometry::each_patch(contacts_.size(), joins, [this](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      contacts_[i].face = std::int16_t(i == begin && end > begin + 2 ? end - begin : 0);
-      faces_ |= contacts_[i].face > 0 ? (std::uint64_t(contacts_[i].face) & 0xff) << i % bits * bits : 0;
-    }
+    const std::size_t points = end > begin + 2 ? end - begin : 0;
+    contacts_[begin].face = std::int16_t(points);
+    faces_ |= std::uint64_t(std::min<std::size_t>(points, 0xff)) << begin % bits * bits;
     if (end != begin + 2) return;
     for (std::size_t i = begin; i < end; ++i) {
       contacts_[i].partner = contacts_[begin + end - 1 - i].place;
