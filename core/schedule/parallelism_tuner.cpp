@@ -56,6 +56,7 @@ void ParallelismTuner::settle(bool parallel, std::uint32_t first_interval) {
   interval_ = known_ && parallel == parallel_ ? std::min(4 * interval_, max_interval) : first_interval;
   known_ = true;
   parallel_ = parallel;
+  if (parallel) growth_windows_ = 1;
   enter(State::settled);
 }
 
@@ -72,11 +73,15 @@ void ParallelismTuner::watch(double duration) {
   enter(State::serial);
 }
 
-/// What one thread did fast enough may be more by now, as when robots meet, and worth several.
+/// What one thread did fast enough may be more by now, as when robots meet, and worth several. Where the next trial
+/// finds that it is not, the look after it takes twice as long.
 void ParallelismTuner::watch_growth(double duration) {
   constexpr double growth = 1.5;
   total_ += std::min(duration, 0.25 * window * serial_);  // one outlier decides nothing
-  if (runs_ % window == 0 && std::exchange(total_, 0) > growth * window * serial_) enter(State::serial);
+  const std::uint32_t runs = window * growth_windows_;
+  if (runs_ % runs != 0 || std::exchange(total_, 0) <= growth * runs * serial_) return;
+  growth_windows_ = std::min(2 * growth_windows_, max_interval / window);
+  enter(State::serial);
 }
 
 }  // namespace muro

@@ -20,9 +20,9 @@ struct KernelContact {
   const double* other = nullptr;    ///< velocity of what it touches at the point, and its spin; null: it does not move
   const double* partner = nullptr;  ///< place of the other end, where it may be one of a line; else null
   ContactExtent* extent = nullptr;
-  std::int16_t body = 0;
+  int body = 0;
+  std::uint16_t traits = 0;
   std::int16_t face = 0;  ///< so many contacts from here on are of the same two shapes, if more than two; else 0
-  unsigned traits = 0;
   /// Of traits: `is_moved`, it has `other`; `may_be_line`, it has `partner`, which is the next contact, or where it
   /// `is_second` the one before; `joins`, it is of the same two shapes as the contact before; `is_of_disc`, see
   /// contact_geometry; `has_cell`, it is one of several points of a face: as find_faces() finds out.
@@ -37,7 +37,7 @@ struct KernelContact {
     is_of_disc = 128
   };
 
-  void set(unsigned trait, bool on) { traits = on ? traits | trait : traits & ~trait; }
+  void set(unsigned trait, bool on) { traits = std::uint16_t(on ? traits | trait : traits & ~trait); }
 };
 /// How many joints of a robot may follow others.
 inline constexpr int most_mimics = 32;
@@ -67,7 +67,8 @@ struct RobotState {
   double* const* body_wrenches = nullptr;  ///< out, or null: the same of all contacts of each body that has some
   double* contact_wrenches = nullptr;      ///< out, or null: force and torque of each contact at its point
   /// Kept from step to step, of the base (world axes, linear and angular) and of each joint: how the last step changed
-  /// their velocities, where it was smooth. None of a robot that is one body.
+  /// their velocities, where it was smooth; of a joint whose drive holds a velocity -1 or 1, where that gave all it
+  /// can. None of a robot that is one body, and with Runge and Kutta.
   double* accelerations = nullptr;
   bool is_pushed = false;  ///< some of `wrenches` are of contacts: with robots that forces move, or among its links
 };

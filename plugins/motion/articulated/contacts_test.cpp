@@ -102,6 +102,33 @@ TEST(LinksOfOneBody, AreToldTheWrenchOfTheirOwnContacts) {
   }
 }
 
+/// In a pack, of which one robot is in the air.
+TEST(ABodyOffItsMiddle, IsToldTheWrenchThatHoldsIt) {
+  World w;
+  w.add_ground();
+  const double mass = 2, off = 0.06;
+  const RobotTree tree = test::tree_of([&](RobotBuilder& b) {
+    const Shape box = Shape::box({0.4, 0.3, 0.1});
+    b.base("body");
+    Inertia inertia = test::solid_box(mass, {0.4, 0.3, 0.1});
+    inertia.com = {off, 0, 0};
+    b.set(keys::inertial, inertia);
+    b.set_array(keys::collision_shapes, std::span<const Shape>(&box, 1));
+  });
+  constexpr int flying = 3;
+  for (int i = 0; i < 8; ++i)
+    w.add("r" + std::to_string(i), tree, {{1.0 * i, 0, i == flying ? 20 : 0.05}, Quat::Identity()});
+  w.start();
+  w.run_for(1);
+  for (int i = 0; i < 8; ++i) {
+    const Wrench wrench = w.world().value("r" + std::to_string(i) + "/body", keys::contact_wrench);
+    const double weight = i == flying ? 0 : mass * g;
+    EXPECT_NEAR(wrench.force.z(), weight, 1e-6 * mass * g) << i;
+    EXPECT_NEAR(wrench.torque.y(), -off * weight, 1e-3) << i;
+    EXPECT_NEAR(wrench.torque.x(), 0, 1e-3) << i;
+  }
+}
+
 TEST(Friction, IsACone) {
   for (const double degrees : {0.0, 20.0, 45.0, 70.0}) {
     const double angle = degrees * M_PI / 180, mass = 2, mu = 0.5;

@@ -177,7 +177,8 @@ class Joints {
     for (int k = 1; k < s_.count; ++k) all += abs(work_.bodies[k].q) + abs(work_.bodies[k].qd);
     return all;
   }
-  /// For the next step, in the robots `smooth`; nothing in the others. [after move]
+  /// For the next step: what joints are carried by, in the robots `smooth` (nothing in the others), and which drives of
+  /// velocity are at their limit. [after move]
   void keep_accelerations(MaskOf<S> smooth, unsigned which) const {
     each_row([&]<int n>(int k, std::integral_constant<int, n>) {
       if (!keeps_something(k, n)) return;
@@ -185,7 +186,7 @@ class Joints {
       for (int i = 0; i < n; ++i) {
         const Joint& j = s_.joints[k + i];
         of_joints[i] = is_carried(j)       ? select(smooth, work_.stages[k + i].accelerations, S(0))
-                       : holds_velocity(j) ? bound_of(work_.pieces[k + i].effort, S(j.effort))
+                       : holds_velocity(j) ? bound_of(work_.pieces[k + i], S(j.effort))
                                            : S(0);
       }
       store_numbers(accelerations_, of_base + k - 1, of_joints, which);
@@ -224,8 +225,10 @@ class Joints {
     return std::any_of(s_.joints + k, s_.joints + k + n,
                        [](const Joint& j) { return is_carried(j) || holds_velocity(j); });
   }
-  /// -1, 1: of a drive that does what it can do at most; else 0.
-  MURO_INLINE static S bound_of(S effort, S most) { return select(abs(effort) >= most, sign_of(effort), S(0)); }
+  /// -1, 1: of a drive that does what it can do at most, `most`, and lets the joint go; else 0.
+  MURO_INLINE static S bound_of(const JointPiece<S>& piece, S most) {
+    return select((piece.is_free > S(0)) & (abs(piece.effort) >= most), sign_of(piece.effort), S(0));
+  }
 
   /// Whether something can take its velocity at once.
   MURO_INLINE static bool may_stop(const Joint& j) {

@@ -110,7 +110,7 @@ void RobotContacts::find(const TouchedBodies& bodies) {
     if (!link) continue;
     KernelContact& contact = contacts_.emplace_back();
     contact.place = c.point.data();
-    contact.body = std::int16_t(link->body);
+    contact.body = link->body;
     const Vec3 rim = link->orientation * bodies[c.self].shapes[c.self_shape].rim;
     std::copy_n(rim.data(), 3, extents_.emplace_back().rim);
     contact.set(KernelContact::has_rim, !rim.isZero(0));
