@@ -65,8 +65,9 @@ void Executor::run_item(void* executor, const void* stage, std::uint32_t chain, 
 }
 
 void Executor::run_chain(const Stage& stage, std::uint32_t chain, unsigned thread) {
-  // To read a clock takes as long as a small step: costs of long runs are those of each eighth step.
-  constexpr std::uint64_t all_at_first = 64, sampling = 8;
+  // To read a clock takes as long as a small step: costs of long runs are those of each seventh step. Algorithms do
+  // some work each 8 or 16 steps; a prime number meets it as often as it happens.
+  constexpr std::uint64_t all_at_first = 64, sampling = 7;
   Thread& state = state_[thread];
   RunningCall& running = running_call();
   running.function.store("step", std::memory_order_relaxed);

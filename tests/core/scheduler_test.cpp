@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <deque>
 #include <utility>
 
@@ -23,6 +25,7 @@ class Recorder final : public abi::AlgorithmInstance {
     log_.push_back(name_ + "@" + std::to_string(step.time / 1'000'000));
     last = step;
     if (fails) error.set("out of fuel");
+    if (step.index % 16 == busy_step) work();
     return !fails;
   }
   bool restored(abi::ErrorText&) noexcept override { return true; }
@@ -31,6 +34,11 @@ class Recorder final : public abi::AlgorithmInstance {
   bool on_handover(std::uint32_t, abi::ErrorText&) noexcept override { return true; }
   Step last;
   bool fails = false;
+  std::uint64_t busy_step = 16;  ///< of each 16 that in which it works; 16: none
+
+  static void work() {
+    for (volatile int i = 0; i < 100'000;) i = i + 1;
+  }
 
  private:
   std::string name_;
@@ -274,6 +282,30 @@ TEST_F(SchedulerTest, AccountsForEveryRun) {
   EXPECT_EQ(scheduler.cost(a).runs, 1000u);
   EXPECT_EQ(scheduler.cost(b).runs, 50u);
   EXPECT_GT(double(scheduler.cost(a).ticks) * scheduler.seconds_per_tick(), 0);
+}
+
+// Costs of long runs are samples; what is done each 16 steps is in as many of them as its share of the steps.
+TEST_F(SchedulerTest, CostsOfRareWorkDoNotDependOnItsStep) {
+  std::vector<TaskId> tasks;
+  for (const std::uint64_t step : {0u, 1u, 8u, 13u}) {
+    tasks.push_back(add("works in " + std::to_string(step), 1000));
+    recorders.back().busy_step = step;
+  }
+  scheduler.run_until(64'000'000);
+  std::vector<double> before;
+  for (const TaskId t : tasks) before.push_back(double(scheduler.cost(t).ticks));
+  const int times = 28;
+  scheduler.run_until((64 + 16 * times) * 1'000'000LL);
+  double quickest = 1;  // s; a run that is disturbed takes longer
+  for (int i = 0; i < times; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    Recorder::work();
+    quickest = std::min(quickest, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  }
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+    EXPECT_GT((double(scheduler.cost(tasks[i]).ticks) - before[i]) * scheduler.seconds_per_tick(),
+              0.5 * times * quickest)
+        << "task " << i;
 }
 
 }  // namespace
