@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <type_traits>
-
 #include "muro/simd/rows.hpp"
-#include "muro/simd/trig.hpp"
+#include "plugins/common/lanes/turn.hpp"
 #include "tree_link.hpp"
 
 namespace muro::kinematics {
@@ -12,8 +10,8 @@ using namespace lane;
 
 /// q rotated about the joint's axis, which is given in q's own frame. `half`: of half the angle.
 template <class S>
-MURO_INLINE Q4<S> rotated(const Q4<S>& q, const TreeLink& link, const SinCos<S>& half) {
-  const S s = half.sin, c = half.cos;
+MURO_INLINE Q4<S> rotated(const Q4<S>& q, const TreeLink& link, const Turn<S>& half) {
+  const S s = half.s, c = half.c;
   switch (link.axis_number) {
     case 1:
       return {q.x * c + q.w * s, q.y * c + q.z * s, q.z * c - q.y * s, q.w * c - q.x * s};
@@ -56,51 +54,6 @@ struct States {
   }
 };
 
-/// Sine and cosine of half the angles of revolute joints, in the order of their links. They are computed some joints
-/// ahead: several at a time where registers hold more than S, and whoever walks through the links keeps its numbers in
-/// registers.
-template <class S>
-class HalfAngles {
- public:
-  MURO_INLINE HalfAngles(const TreeLink* links, const StateOffsets* offsets, int link_count, const States<S>& states)
-      : links_(links), offsets_(offsets), link_count_(link_count), states_(states) {}
-
-  /// Of the next joint, that of link `k`.
-  MURO_INLINE SinCos<S> of(int k) {
-    if (next_ == found_) look_ahead(k);
-    const int i = next_++;
-    return {load_turn(sines_, i), load_turn(cosines_, i)};
-  }
-
- private:
-  /// As many numbers as registers hold, of one joint or of several.
-  using Turn = std::conditional_t<vectors::register_bytes >= 64 && count_of<S> == 4, Double8,
-                                  std::conditional_t<count_of<S> == 1, Double4, S>>;
-  static constexpr int at_once = count_of<Turn> / count_of<S>, most = 32;
-
-  MURO_INLINE static S load_turn(const double* from, int i) { return load_side_by_side<S>(from + i * count_of<S>); }
-  [[gnu::noinline]] void look_ahead(int k) {
-    double halves[most * count_of<S>];
-    for (next_ = found_ = 0; found_ < most && k < link_count_; ++k)
-      if (links_[k].joint == TreeLink::Joint::revolute)
-        store_side_by_side(halves + found_++ * count_of<S>, S(0.5) * load(states_.positions, offsets_[k].position));
-    const int rest = (at_once - found_ % at_once) % at_once;
-    for (int i = 0; i < rest; ++i) store_side_by_side(halves + (found_ + i) * count_of<S>, S(0));
-    for (int i = 0; i < found_; i += at_once) {
-      const SinCos<Turn> turn = sincos(load_side_by_side<Turn>(halves + i * count_of<S>));
-      store_side_by_side(sines_ + i * count_of<S>, turn.sin);
-      store_side_by_side(cosines_ + i * count_of<S>, turn.cos);
-    }
-  }
-
-  const TreeLink* links_;
-  const StateOffsets* offsets_;
-  int link_count_;
-  const States<S>& states_;
-  double sines_[most * count_of<S>], cosines_[most * count_of<S>];  ///< joint by joint
-  int next_ = 0, found_ = 0;
-};
-
 /// The link from which others are reached.
 template <class S>
 struct Parent {
@@ -120,7 +73,6 @@ void forward_lanes(const TreeLink* links, const StateOffsets* offsets, int link_
   const auto link_at = [&](const StateOffsets& at) {
     return Parent<S>(load_pose(as_read(states.poses), at.pose), load_twist(as_read(states.twists), at.twist));
   };
-  HalfAngles<S> half_angles(links, offsets, link_count, states);
   int parent = 0;
   Parent<S> from = base();
   PoseOf<S> pose = from.pose;
@@ -139,7 +91,7 @@ void forward_lanes(const TreeLink* links, const StateOffsets* offsets, int link_
       const S rate = load(states.velocities, at.velocity);
       const V3<S> axis = axis_in_world(from.axes, link);
       if (link.joint == TreeLink::Joint::revolute) {
-        pose.orientation = rotated(pose.orientation, link, half_angles.of(k));
+        pose.orientation = rotated(pose.orientation, link, turn_by(S(0.5) * load(states.positions, at.position)));
         twist.angular += axis * rate;
       } else {
         arm += axis * load(states.positions, at.position);
