@@ -9,6 +9,17 @@
 
 namespace muro {
 
+namespace {
+
+/// Whether a step is one of those, one in `sampling`, whose costs are measured. Multiples of the golden ratio modulo 1
+/// are spread evenly (Weyl), and so are those of each sixteenth step alone, in which an algorithm may do more.
+bool is_sampled(std::uint64_t index, std::uint64_t sampling) {
+  constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15;  // its fraction by 2^64
+  return index * golden_ratio < ~std::uint64_t(0) / sampling;
+}
+
+}  // namespace
+
 std::string Executor::set_threads(unsigned threads) {
   threads_ = std::max(1u, threads);
   workers_.reset();
@@ -65,9 +76,8 @@ void Executor::run_item(void* executor, const void* stage, std::uint32_t chain, 
 }
 
 void Executor::run_chain(const Stage& stage, std::uint32_t chain, unsigned thread) {
-  // To read a clock takes as long as a small step: costs of long runs are those of each seventh step. Algorithms do
-  // some work each 8 or 16 steps; a prime number meets it as often as it happens.
-  constexpr std::uint64_t all_at_first = 64, sampling = 7;
+  // To read a clock takes as long as a small step: costs of long runs are those of one step in eight.
+  constexpr std::uint64_t all_at_first = 64, sampling = 8;
   Thread& state = state_[thread];
   RunningCall& running = running_call();
   running.function.store("step", std::memory_order_relaxed);
@@ -76,7 +86,7 @@ void Executor::run_chain(const Stage& stage, std::uint32_t chain, unsigned threa
     const Task& task = now_.tasks[call.task];
     const std::int64_t time = now_.times[call.instant];
     const Step step{time, call.dt, now_.runs[call.task] + call.instant, now_.seed, call.phase};
-    const bool each = timeline_.on() || step.index < all_at_first, timed = each || step.index % sampling == 0;
+    const bool each = timeline_.on() || step.index < all_at_first, timed = each || is_sampled(step.index, sampling);
     const bool of_items = task.phases[call.phase].index_space == Phase::IndexSpace::items;
     const std::uint64_t before = timed ? ticks() : 0;
     abi::ErrorText error;

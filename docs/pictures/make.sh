@@ -30,7 +30,7 @@ camera labels labels
   --size 1280x720 --out "$out/mixed_team.png"
 "$muro" render examples/soccer/soccer.yaml --at 1.45 --from=-1.9,-2.5,1.05 --to=0.75,0.35,0.05 --fov 52 --size 1280x640 \
   --out "$out/soccer.png"
-"$muro" render examples/soccer/match.yaml --at 114.88 --from=-3.3,-1.3,1.1 --to=-4.15,0.95,0.2 --fov 55 --size 1280x720 \
+"$muro" render examples/soccer/match.yaml --at 39.58 --from=2.2,0.7,1.5 --to=4.3,-0.3,0.1 --fov 62 --size 1280x720 \
   --out "$out/match.png"
 
 allan=$(mktemp --suffix=.svg)
