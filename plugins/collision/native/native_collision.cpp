@@ -8,6 +8,7 @@
 #include "hulls/hull_plane.hpp"
 #include "pairs/collide.hpp"
 #include "pairs/separation_bound.hpp"
+#include "plugins/common/lanes/prefetch.hpp"
 #include "terrain/collide_terrain.hpp"
 
 namespace muro::native {
@@ -235,10 +236,19 @@ void NativeCollision::list_contacts(Range robots) {
       ground.contacts[i] = batch.found[i]->point.data();
       ground.signatures[i] = ground_robots_[r].signature;
       ground.clearances[i] = ground_robots_[r].clearances;
+      fetch(group.structure, ground.poses[i], batch.found[i], (*robots_[r].list).size());
       if (ground.used == batch_size) find_ground_contacts(batch);
     }
     if (ground.used > 0) find_ground_contacts(batch);
   }
+}
+
+/// Prefetches what the kernel reads and writes of a robot while others join the batch: in large teams it is not in a
+/// near cache.
+void NativeCollision::fetch(std::span<const KernelShape> shapes, const RobotPoses& poses, const Contact* contacts,
+                            std::size_t count) {
+  for (const KernelShape& s : shapes) lane::prefetch_lines(s.pose.in(poses), sizeof(Pose));
+  lane::prefetch_lines(contacts, count * sizeof(Contact));
 }
 
 /// Whether a kernel finds contacts of the robot with the ground.

@@ -94,29 +94,12 @@ bool SceneryContacts::knows(std::uint32_t robot, std::span<const Contact> now) c
 }
 
 void SceneryContacts::apply_forces(const StepContext& context, Range block) {
-  constexpr std::uint32_t ahead = 8;
   Queues queues;
   const auto robot_of = [&](std::uint32_t number) { return bodies_.robot_of[number]; };
   for (std::uint32_t number = block.begin; number < block.end; ++number) {
-    if (number + ahead < block.end && robot_of(number + ahead) != no_robot)
-      fetch(std::uint32_t(robot_of(number + ahead)));
     if (robot_of(number) != no_robot) apply_forces_on(context, std::uint32_t(robot_of(number)), queues);
   }
   process_rest(context, queues);
-}
-
-/// Prefetches the data of a robot that is processed soon: in large teams it is not in a near cache.
-void SceneryContacts::fetch(std::uint32_t robot) const {
-  constexpr std::size_t line = 64, bodies = 4, contacts = 2 * bodies;  // of a vehicle
-  const KnownRobot& known = robots_[robot];
-  const auto fetch_lines = [](const void* from, std::size_t bytes) {
-    for (std::size_t i = 0; i < bytes; i += line) __builtin_prefetch(static_cast<const char*>(from) + i);
-  };
-  fetch_lines((*known.list).data(), contacts * sizeof(Contact));
-  fetch_lines((*known.anchors).data(), contacts * sizeof(FrictionAnchor));
-  if (known.lasting.count == 0) return;
-  fetch_lines(known.lasting.pose, bodies * sizeof(Pose));  // they lie side by side
-  fetch_lines(known.lasting.twist, bodies * sizeof(Twist));
 }
 
 void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t robot, Queues& queues) {

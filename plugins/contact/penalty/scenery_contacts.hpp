@@ -59,7 +59,6 @@ class SceneryContacts {
 
   bool touches_robots(std::uint32_t robot, std::span<const Contact> contacts);
   void forget_turning(std::uint32_t robot) const;
-  void fetch(std::uint32_t robot) const;
   bool knows(std::uint32_t robot, std::span<const Contact> now) const;
   void apply_forces_on(const StepContext& context, std::uint32_t robot, Queues& queues);
   void analyse(std::uint32_t robot, std::span<const Contact> contacts);
