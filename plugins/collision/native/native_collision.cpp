@@ -212,6 +212,8 @@ void NativeCollision::collide_meshes(const TransformedCollider& a, const Transfo
 void NativeCollision::list_contacts(Range robots) {
   thread_local std::vector<Contact> scratch;  // for lists that have more than the kernel finds
   if (scratch.size() < batch_size * most_ground_points_) scratch.resize(batch_size * most_ground_points_);
+  constexpr std::size_t near_cache = 256;  // robots whose data a near cache holds
+  const bool is_large_team = robots_.size() > near_cache;
   Batch batch;
   GroundBatch& ground = batch.ground;
   ground.contact_stride = sizeof(Contact) / sizeof(double);
@@ -236,15 +238,14 @@ void NativeCollision::list_contacts(Range robots) {
       ground.contacts[i] = batch.found[i]->point.data();
       ground.signatures[i] = ground_robots_[r].signature;
       ground.clearances[i] = ground_robots_[r].clearances;
-      fetch(group.structure, ground.poses[i], batch.found[i], (*robots_[r].list).size());
+      if (is_large_team) fetch(group.structure, ground.poses[i], batch.found[i], (*robots_[r].list).size());
       if (ground.used == batch_size) find_ground_contacts(batch);
     }
     if (ground.used > 0) find_ground_contacts(batch);
   }
 }
 
-/// Prefetches what the kernel reads and writes of a robot while others join the batch: in large teams it is not in a
-/// near cache.
+/// Prefetches what the kernel reads and writes of a robot while others join the batch.
 void NativeCollision::fetch(std::span<const KernelShape> shapes, const RobotPoses& poses, const Contact* contacts,
                             std::size_t count) {
   for (const KernelShape& s : shapes) lane::prefetch_lines(s.pose.in(poses), sizeof(Pose));

@@ -5,8 +5,7 @@
 
 namespace muro::lane {
 
-/// Prefetches the cache lines of `bytes` from `from` on. In large teams the data of the next robots is in no near
-/// cache; lines that are asked for together come together.
+/// Prefetches the cache lines of `bytes` from `from` on: lines that are asked for together come together.
 inline void prefetch_lines(const void* from, std::size_t bytes) {
   constexpr std::size_t line = 64;
   const char* const begin = static_cast<const char*>(from);
