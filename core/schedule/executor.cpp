@@ -14,7 +14,7 @@ namespace {
 /// Whether a step is one of those, one in `sampling`, whose costs are measured. Multiples of the golden ratio modulo 1
 /// are spread evenly (Weyl), and so are those of each sixteenth step alone, in which an algorithm may do more.
 bool is_sampled(std::uint64_t index, std::uint64_t sampling) {
-  constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15;  // its fraction by 2^64
+  constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15;  // 2^64 times its fraction
   return index * golden_ratio < ~std::uint64_t(0) / sampling;
 }
 

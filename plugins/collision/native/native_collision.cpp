@@ -238,18 +238,18 @@ void NativeCollision::list_contacts(Range robots) {
       ground.contacts[i] = batch.found[i]->point.data();
       ground.signatures[i] = ground_robots_[r].signature;
       ground.clearances[i] = ground_robots_[r].clearances;
-      if (is_large_team) fetch(group.structure, ground.poses[i], batch.found[i], (*robots_[r].list).size());
+      if (is_large_team) fetch(group.structure, ground.poses[i], *robots_[r].list);
       if (ground.used == batch_size) find_ground_contacts(batch);
     }
     if (ground.used > 0) find_ground_contacts(batch);
   }
 }
 
-/// Prefetches what the kernel reads and writes of a robot while others join the batch.
-void NativeCollision::fetch(std::span<const KernelShape> shapes, const RobotPoses& poses, const Contact* contacts,
-                            std::size_t count) {
+/// Prefetches the poses that the kernel reads and the list that it writes, while other robots join the batch.
+void NativeCollision::fetch(std::span<const KernelShape> shapes, const RobotPoses& poses,
+                            std::span<const Contact> contacts) {
   for (const KernelShape& s : shapes) lane::prefetch_lines(s.pose.in(poses), sizeof(Pose));
-  lane::prefetch_lines(contacts, count * sizeof(Contact));
+  lane::prefetch_lines(contacts.data(), contacts.size_bytes());
 }
 
 /// Whether a kernel finds contacts of the robot with the ground.

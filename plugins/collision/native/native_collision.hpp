@@ -43,8 +43,7 @@ class NativeCollision final : public PairCollision {
   void group_robots();
   void allocate_signatures();
   void allocate_clearances();
-  static void fetch(std::span<const KernelShape> shapes, const RobotPoses& poses, const Contact* contacts,
-                    std::size_t count);
+  static void fetch(std::span<const KernelShape> shapes, const RobotPoses& poses, std::span<const Contact> contacts);
   bool takes_kernel(std::uint32_t robot) const;
   bool touches_only_ground(std::uint32_t robot);
   void find_ground_contacts(Batch& batch);
