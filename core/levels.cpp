@@ -11,14 +11,6 @@
 
 namespace muro {
 
-namespace {
-
-/// As in plugins/common/level_rules.
-constexpr Key<std::int32_t> motion_level_rule{"motion.level.rule", "1",
-                                              "which motion is to move it by a rule that holds; -1: none holds"};
-
-}  // namespace
-
 /// Steps those items of an instance whose robots it moves at present.
 class Levels::LevelFilter final : public abi::AlgorithmInstance {
  public:
@@ -114,7 +106,7 @@ void Levels::add_properties(World& world, Accessor accessor, const std::vector<s
   r.level_slot = store.slots_of(accessor).back();
   r.target = static_cast<const std::int32_t*>(bind(keys::motion_level_target, usage::input, &no_target));
   r.target_slot = store.slots_of(accessor).back();
-  r.rule = static_cast<const std::int32_t*>(bind(motion_level_rule, usage::input, &no_target));
+  r.rule = static_cast<const std::int32_t*>(bind(keys::motion_level_rule, usage::input, &no_target));
   r.rule_slot = store.slots_of(accessor).back();
   std::vector<TextId> texts;
   for (const std::string& name : names) texts.push_back(world.intern(name));

@@ -150,11 +150,25 @@ void World::set_values(ObjectId object, const KeyInfo& key, const void* data, st
   store_.set_constant(object, key, data, count);
 }
 
-void* World::place(ObjectId object, const KeyInfo& key) const {
+bool World::is_written(ObjectId object, std::string_view key) const {
+  const Slot* s = store_.find(object, key);
+  return s && s->writer();
+}
+
+bool World::is_used(ObjectId object, std::string_view key, Usage usage) const {
+  const Slot* s = store_.find(object, key);
+  return s && s->used_as(usage);
+}
+
+void* World::find_place(ObjectId object, const KeyInfo& key) const {
   const Slot* s = store_.find(object, key.name);
-  if (!s || !s->place || !(*store_.key_of(*s).type == *key.type))
-    throw SetupError("`" + object_name(object) + "` has no property `" + std::string(key.name) + "`");
-  return s->place;
+  return s && s->place && *store_.key_of(*s).type == *key.type ? s->place : nullptr;
+}
+
+void* World::place(ObjectId object, const KeyInfo& key) const {
+  void* const found = find_place(object, key);
+  if (!found) throw SetupError("`" + object_name(object) + "` has no property `" + std::string(key.name) + "`");
+  return found;
 }
 
 ArrayHeader World::elements(ObjectId object, const KeyInfo& key) const {

@@ -79,6 +79,35 @@ class World {
     return {static_cast<T*>(found.data), found.size};
   }
 
+  /// The same, or null.
+  template <class T>
+  T* find_value(ObjectId object, const Key<T>& key) const {
+    return static_cast<T*>(find_place(object, key));
+  }
+  /// Whether an object has a property of this name: somebody makes it, or asks for it.
+  bool has(ObjectId object, std::string_view key) const { return store_.find(object, key) != nullptr; }
+  /// Whether an algorithm writes it.
+  bool is_written(ObjectId object, std::string_view key) const;
+  /// Whether an algorithm uses it in this way.
+  bool is_used(ObjectId object, std::string_view key, Usage usage) const;
+
+  /// A constant that is a single value; null when there is none.
+  template <class T>
+  const T* find_constant(ObjectId object, const Key<T>& key) const {
+    return static_cast<const T*>(store_.constant(object, key).data);
+  }
+  template <class T>
+  T constant(ObjectId object, const Key<T>& key, const T& default_value) const {
+    const T* const found = find_constant(object, key);
+    return found ? *found : default_value;
+  }
+  /// The elements of a constant array; none when there is no such constant.
+  template <class T>
+  std::span<const T> constants(ObjectId object, const Key<T>& key) const {
+    const ArrayHeader found = store_.constant(object, key);
+    return {static_cast<const T*>(found.data), found.data ? found.size : 0};
+  }
+
   /// Hash of the variable properties of a robot's objects; does not depend on other robots.
   std::uint64_t hash(const RobotView& robot) const;
   /// Hash of those of all robots: what is beside them, such as a camera that looks on, has no say in it.
@@ -88,6 +117,7 @@ class World {
 
  private:
   void set_values(ObjectId object, const KeyInfo& key, const void* data, std::uint32_t count);
+  void* find_place(ObjectId object, const KeyInfo& key) const;
   void* place(ObjectId object, const KeyInfo& key) const;
   ArrayHeader elements(ObjectId object, const KeyInfo& key) const;
 

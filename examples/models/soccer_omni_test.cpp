@@ -14,9 +14,9 @@ TEST(SoccerOmni, KeepsToTheSizeOfItsLeague) {
   const World& world = b.simulation->world();
   double reach = 0, height = 0, low = 1;
   for (const Link& link : robot_of(b).links) {
-    EXPECT_TRUE(is_possible(
-        host::constant(world, link.object, keys::inertial, Inertia{.mass = 1, .ixx = 1, .iyy = 1, .izz = 1})));
-    for (const Shape& s : host::constants(world, link.object, keys::collision_shapes)) {
+    EXPECT_TRUE(
+        is_possible(world.constant(link.object, keys::inertial, Inertia{.mass = 1, .ixx = 1, .iyy = 1, .izz = 1})));
+    for (const Shape& s : world.constants(link.object, keys::collision_shapes)) {
       const Aabb box = bounds_of(s, world.value(link.object, keys::pose) * s.origin);
       height = std::max(height, box.high.z());
       low = std::min(low, box.low.z());

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/constants.hpp"
 #include "host/scenario/builder.hpp"
 #include "muro/vocabulary.hpp"
 #include "tests/support/files.hpp"
@@ -32,13 +31,13 @@ inline const Link& link_of(const host::BuiltScenario& b, const std::string& body
 }
 
 inline Inertia inertia_of(const host::BuiltScenario& b, const std::string& body) {
-  return host::constant(b.simulation->world(), b.simulation->world().object("r/" + body), keys::inertial, Inertia{});
+  return b.simulation->world().constant(b.simulation->world().object("r/" + body), keys::inertial, Inertia{});
 }
 
 inline double mass_of(const host::BuiltScenario& b) {
   double mass = 0;
   for (const Link& link : robot_of(b).links)
-    mass += host::constant(b.simulation->world(), link.object, keys::inertial, Inertia{}).mass;
+    mass += b.simulation->world().constant(link.object, keys::inertial, Inertia{}).mass;
   return mass;
 }
 

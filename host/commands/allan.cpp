@@ -6,10 +6,10 @@
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
 #include "host/names.hpp"
-#include "host/output_file.hpp"
+#include "host/outputs/output_file.hpp"
 #include "host/outputs/output_options.hpp"
 #include "host/process/interrupt.hpp"
-#include "host/sensors/allan_report.hpp"
+#include "host/tools/sensors/allan_report.hpp"
 
 namespace muro::host {
 

@@ -5,10 +5,10 @@
 
 #include "core/error.hpp"
 #include "host/commands/commands.hpp"
+#include "host/commands/model_check/level_check.hpp"
 #include "host/commands/open.hpp"
-#include "host/model_check/level_check.hpp"
 #include "host/names.hpp"
-#include "host/unsupported_features/unsupported_features.hpp"
+#include "host/scenario/features/unsupported_features.hpp"
 
 namespace muro::host {
 

@@ -6,11 +6,11 @@
 #include "host/commands/commands.hpp"
 #include "host/commands/compare_against.hpp"
 #include "host/commands/current_run.hpp"
-#include "host/compare/table.hpp"
 #include "host/names.hpp"
-#include "host/output_file.hpp"
 #include "host/outputs/failures.hpp"
 #include "host/outputs/messages.hpp"
+#include "host/outputs/output_file.hpp"
+#include "host/tools/compare/table.hpp"
 
 namespace muro::host {
 

@@ -7,13 +7,13 @@
 
 #include "core/output_registry.hpp"
 #include "host/commands/current_run.hpp"
-#include "host/compare/against_record.hpp"
-#include "host/compare/against_scans.hpp"
-#include "host/identify/identification.hpp"
 #include "host/names.hpp"
-#include "host/output_file.hpp"
 #include "host/outputs/failures.hpp"
 #include "host/outputs/messages.hpp"
+#include "host/outputs/output_file.hpp"
+#include "host/tools/compare/against_record.hpp"
+#include "host/tools/compare/against_scans.hpp"
+#include "host/tools/identify/identification.hpp"
 
 namespace muro::host {
 

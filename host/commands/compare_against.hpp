@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/commands/commands.hpp"
-#include "host/compare/comparison.hpp"
+#include "host/tools/compare/comparison.hpp"
 
 namespace muro::host {
 

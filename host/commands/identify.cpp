@@ -11,11 +11,11 @@
 
 #include "core/error.hpp"
 #include "host/commands/commands.hpp"
-#include "host/identify/identification.hpp"
-#include "host/identify/known_motors.hpp"
 #include "host/names.hpp"
-#include "host/output_file.hpp"
 #include "host/outputs/failures.hpp"
+#include "host/outputs/output_file.hpp"
+#include "host/tools/identify/identification.hpp"
+#include "host/tools/identify/known_motors.hpp"
 
 namespace muro::host {
 

@@ -9,16 +9,15 @@
 #include "core/instance.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
-#include "host/constants.hpp"
-#include "host/false_colors.hpp"
-#include "host/free_camera.hpp"
 #include "host/names.hpp"
-#include "host/output_file.hpp"
+#include "host/outputs/false_colors.hpp"
+#include "host/outputs/free_camera.hpp"
+#include "host/outputs/output_file.hpp"
 #include "host/outputs/output_options.hpp"
+#include "host/outputs/png.hpp"
 #include "host/outputs/remove_outputs.hpp"
-#include "host/png.hpp"
+#include "host/outputs/video.hpp"
 #include "host/process/interrupt.hpp"
-#include "host/video.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
@@ -78,7 +77,7 @@ ObjectId camera_of(const RenderOptions& options, Simulation& simulation) {
   std::vector<std::string> cameras;
   for (const auto& instance : simulation.instances())
     for (const Item& item : instance->setup().items)
-      if (simulation.world().store().find(item.object, keys::camera_image.name))
+      if (simulation.world().has(item.object, keys::camera_image.name))
         cameras.push_back(simulation.world().object_name(item.object));
   const std::string name = options.camera.empty() ? free_camera_name : options.camera;
   if (std::find(cameras.begin(), cameras.end(), name) != cameras.end()) return simulation.world().object(name);
@@ -135,13 +134,13 @@ class Photographer {
         camera_(camera_of(options, simulation_)),
         free_camera_(free_camera) {
     const World& world = simulation_.world();
-    if (options.shows != "rgb" && !world.store().find(camera_, "camera." + options.shows))
+    if (options.shows != "rgb" && !world.has(camera_, "camera." + options.shows))
       throw SetupError(
           fmt::format("camera `{0}` writes no camera.{1}; give a robot's camera `{1}: true`, and name it by "
                       "--camera",
                       options.camera.empty() ? "from outside" : options.camera, options.shows));
-    width_ = constant(world, camera_, keys::camera_width, 0u);
-    height_ = constant(world, camera_, keys::camera_height, 0u);
+    width_ = world.constant(camera_, keys::camera_width, 0u);
+    height_ = world.constant(camera_, keys::camera_height, 0u);
   }
 
   void take_picture() {

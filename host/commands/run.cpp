@@ -12,18 +12,18 @@
 #include "core/external/reported_numbers.hpp"
 #include "host/commands/commands.hpp"
 #include "host/commands/open.hpp"
-#include "host/output_file.hpp"
 #include "host/outputs/failures.hpp"
 #include "host/outputs/json_text.hpp"
+#include "host/outputs/output_file.hpp"
 #include "host/outputs/output_options.hpp"
+#include "host/outputs/report.hpp"
 #include "host/outputs/slow_run.hpp"
 #include "host/outputs/standard_output.hpp"
+#include "host/outputs/timeline.hpp"
 #include "host/process/interrupt.hpp"
 #include "host/process/step_watch.hpp"
-#include "host/report.hpp"
-#include "host/shadows.hpp"
-#include "host/timeline.hpp"
-#include "host/unsupported_features/unsupported_features.hpp"
+#include "host/scenario/features/unsupported_features.hpp"
+#include "host/scenario/shadows.hpp"
 
 namespace muro::host {
 

@@ -9,7 +9,7 @@ namespace {
 
 /// Whether the model says where a joint is at the start.
 bool has_start(const World& world, ObjectId joint) {
-  return joint != no_object && world.store().constant(joint, keys::initial_joint_position).data;
+  return joint != no_object && world.find_constant(joint, keys::initial_joint_position);
 }
 
 }  // namespace

@@ -19,18 +19,6 @@ namespace {
 
 constexpr double least_depth = 1e-3;  // m; less is what models and placement leave
 
-template <class T>
-std::span<const T> constants(const World& world, ObjectId object, const Key<T>& key) {
-  const ArrayHeader found = world.store().constant(object, key);
-  return {static_cast<const T*>(found.data), found.data ? found.size : 0};
-}
-
-template <class T>
-T constant_or(const World& world, ObjectId object, const Key<T>& key, const T& otherwise) {
-  const std::span<const T> found = constants(world, object, key);
-  return found.empty() ? otherwise : found.front();
-}
-
 /// The poses that are looked at: those at the start, or those of now, but for what is to be placed.
 struct Moment {
   bool is_start = true;
@@ -39,12 +27,12 @@ struct Moment {
 
 template <class T>
 T value_or(const World& world, ObjectId object, const Key<T>& key, const T& otherwise) {
-  const Slot* slot = world.store().find(object, key.name);
-  return slot && slot->place ? *static_cast<const T*>(slot->place) : otherwise;
+  const T* const found = world.find_value(object, key);
+  return found ? *found : otherwise;
 }
 
 Pose pose_of(const World& world, const RobotView& robot, const Moment& moment) {
-  if (moment.is_start) return constant_or(world, robot.base(), keys::initial_pose, Pose{});
+  if (moment.is_start) return world.constant(robot.base(), keys::initial_pose, Pose{});
   if (moment.placed->object == robot.base()) return moment.placed->pose;
   return value_or(world, robot.base(), keys::pose, Pose{});
 }
@@ -52,7 +40,7 @@ Pose pose_of(const World& world, const RobotView& robot, const Moment& moment) {
 /// Of each link in the frame of the base.
 std::vector<Pose> link_poses(const World& world, const RobotView& robot, const Moment& moment) {
   const auto start = [&](const Link& link) {
-    return moment.is_start ? constant_or(world, link.joint_object, keys::initial_joint_position, 0.0)
+    return moment.is_start ? world.constant(link.joint_object, keys::initial_joint_position, 0.0)
                            : value_or(world, link.joint_object, keys::joint_position, 0.0);
   };
   std::vector<Pose> poses(robot.links.size());
@@ -70,10 +58,8 @@ std::vector<Pose> link_poses(const World& world, const RobotView& robot, const M
 
 /// Whether contacts move or stop the robot.
 bool heeds_contacts(const World& world, const RobotView& robot) {
-  const Slot* contact_world = world.store().find(robot.base(), keys::contact_world.name);
-  if (contact_world && contact_world->place && world.value(robot.base(), keys::contact_world) != 0) return true;
-  const Slot* contacts = world.store().find(robot.base(), keys::contacts.name);
-  return contacts && contacts->used_as(usage::read);
+  const std::uint64_t* const contact_world = world.find_value(robot.base(), keys::contact_world);
+  return (contact_world && *contact_world != 0) || world.is_used(robot.base(), keys::contacts.name, usage::read);
 }
 
 /// A body of the scene below, the same in each of its kinds.
@@ -133,7 +119,7 @@ class Still {
     for (std::uint32_t i = 1; i < original_.object_count(); ++i)
       if (original_.robot_of(ObjectId{i}) < 0) add_scenery(ObjectId{i});
     for (const RobotView* robot : original_.robots())
-      if (constants(original_, robot->base(), keys::shadow_of).empty()) add_robot(*robot);
+      if (original_.constants(robot->base(), keys::shadow_of).empty()) add_robot(*robot);
     use_collision();
   }
   bool has_meshes() const { return has_meshes_; }
@@ -179,8 +165,8 @@ class Still {
 
   void add_scenery(ObjectId object) {
     std::vector<Shape> shapes;
-    for (const Shape& s : constants(original_, object, keys::collision_shapes)) shapes.push_back(with_own_texts(s));
-    const auto pose = constants(original_, object, keys::pose);
+    for (const Shape& s : original_.constants(object, keys::collision_shapes)) shapes.push_back(with_own_texts(s));
+    const auto pose = original_.constants(object, keys::pose);
     if (shapes.empty() || pose.empty()) return;
     const ObjectId added =
         world_.add_scenery(original_.object_name(object), pose.front(), shapes, std::span<const Shape>());
@@ -213,7 +199,7 @@ class Still {
     Names names{heeds, heeds_heightmaps, hulls_ && scenery_is_hulls_[robot.number], {}, {}};
     std::vector<Shape> shapes;
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      const std::span<const Shape> of_link = constants(original_, robot.links[i].object, keys::collision_shapes);
+      const std::span<const Shape> of_link = original_.constants(robot.links[i].object, keys::collision_shapes);
       for (Shape s : of_link) {
         has_meshes_ = has_meshes_ || s.kind == ShapeKind::mesh;
         s.origin = poses[i] * s.origin;

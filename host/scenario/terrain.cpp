@@ -89,12 +89,10 @@ void Terrain::add_scenery(const World& world) {
   for (std::uint32_t i = 1; i < world.object_count(); ++i) {
     const ObjectId object{i};
     if (world.robot_of(object) >= 0) continue;
-    const ArrayHeader poses = world.store().constant(object, keys::pose);
-    const ArrayHeader shapes = world.store().constant(object, keys::collision_shapes);
-    if (!poses.data || !shapes.data) continue;
-    for (const Shape& s : std::span(static_cast<const Shape*>(shapes.data), shapes.size))
-      add(s, s.kind == ShapeKind::heightmap ? std::string(world.text(s.mesh)) : "",
-          *static_cast<const Pose*>(poses.data) * s.origin);
+    const Pose* const pose = world.find_constant(object, keys::pose);
+    if (!pose) continue;
+    for (const Shape& s : world.constants(object, keys::collision_shapes))
+      add(s, s.kind == ShapeKind::heightmap ? std::string(world.text(s.mesh)) : "", *pose * s.origin);
   }
 }
 

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "muro/toolkit/rotations.hpp"
-#include "plugins/common/laser_methods/raycast/ray_caster.hpp"
-#include "plugins/common/laser_methods/raycast/test_scene.hpp"
+#include "plugins/laser/common/raycast/ray_caster.hpp"
+#include "plugins/laser/common/raycast/test_scene.hpp"
 #include "tests/bench/report.hpp"
 
 namespace {

@@ -7,8 +7,8 @@
 
 #include "core/instance.hpp"
 #include "muro/toolkit/rotations.hpp"
-#include "plugins/common/laser_methods/zbuffer/camera_rig.hpp"
 #include "plugins/common/render/gpu_scene.hpp"
+#include "plugins/laser/common/zbuffer/camera_rig.hpp"
 #include "tests/bench/baselines/depth.hpp"
 #include "tests/bench/muro_team.hpp"
 #include "tests/bench/report.hpp"

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "plugins/common/shared_call/turn.hpp"
+#include "plugins/controller/common/shared_call/turn.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/peer.hpp"

@@ -11,7 +11,7 @@
 #include <memory>
 #include <random>
 
-#include "plugins/common/radio/keys.hpp"
+#include "muro/vocabulary/radio.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/support/bodies.hpp"
 
@@ -65,7 +65,7 @@ class Crowd : public test::Scene {
       if (moving) world().value(base, keys::command_twist).linear = {v * std::cos(heading), v * std::sin(heading), 0};
     }
     if (has_radios_)
-      for (const ObjectId o : objects_) world().value(o, radio::key_send_size) = 32;
+      for (const ObjectId o : objects_) world().value(o, keys::radio_send_size) = 32;
     round();
   }
   /// s of the processor a simulated second, over half a second.
@@ -74,7 +74,7 @@ class Crowd : public test::Scene {
     double spent = 0;
     for (int k = 0; k < broadcasts; ++k) {
       if (has_radios_)
-        for (const ObjectId o : objects_) ++world().value(o, radio::key_send_number);
+        for (const ObjectId o : objects_) ++world().value(o, keys::radio_send_number);
       const double before = processor_time();
       run_for(1.0 / broadcast_rate);
       spent += processor_time() - before;
@@ -84,7 +84,7 @@ class Crowd : public test::Scene {
   radio::Counters sum() {
     radio::Counters all;
     for (const ObjectId o : objects_) {
-      const radio::Counters& c = world().value(o, radio::key_counters);
+      const radio::Counters& c = world().value(o, keys::radio_counters);
       all.sent += c.sent, all.received += c.received, all.lost_collision += c.lost_collision;
     }
     return all;

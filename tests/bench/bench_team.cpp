@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "host/report.hpp"
+#include "host/outputs/report.hpp"
 #include "host/scenario/builder.hpp"
 #include "tests/bench/muro_team.hpp"
 #include "tests/bench/report.hpp"

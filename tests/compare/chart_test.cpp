@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The picture, read back from its text.
-#include "host/compare/chart.hpp"
+#include "host/tools/compare/chart.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs of which one knows what must come out.
-#include "host/compare/comparison.hpp"
+#include "host/tools/compare/comparison.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/compare/factor.hpp"
+#include "host/tools/compare/factor.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Records of scans as SCIP 2.0 and CSV, right and wrong.
-#include "host/compare/scan_record.hpp"
+#include "host/tools/compare/scan_record.hpp"
 
 #include <gtest/gtest.h>
 

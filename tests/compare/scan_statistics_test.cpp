@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Statistics of scans that are made with known ones.
-#include "host/compare/scan_statistics.hpp"
+#include "host/tools/compare/scan_statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/compare/trajectory.hpp"
+#include "host/tools/compare/trajectory.hpp"
 
 #include <gtest/gtest.h>
 

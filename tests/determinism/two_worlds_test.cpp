@@ -6,7 +6,7 @@
 #include <optional>
 #include <thread>
 
-#include "host/report.hpp"
+#include "host/outputs/report.hpp"
 #include "host/scenario/builder.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scene.hpp"

@@ -2,8 +2,8 @@
 // MJCF, as a model and as a world, through the parser process.
 #include "core/robot_tree.hpp"
 #include "core/world_model.hpp"
-#include "plugins/common/builder_calls/replay.hpp"
 #include "plugins/common/parser_process/ask.hpp"
+#include "plugins/common/parser_process/builder_calls/replay.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace muro::fuzz {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bytes of clients of controller.joints and controller.sensors, in both protocols.
-#include "plugins/common/wire_protocol/frame.hpp"
-#include "plugins/common/wire_protocol/service_testing.hpp"
+#include "plugins/controller/common/wire_protocol/frame.hpp"
+#include "plugins/controller/common/wire_protocol/service_testing.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace muro::fuzz {

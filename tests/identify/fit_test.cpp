@@ -2,7 +2,7 @@
 // The search, against records whose motor is known.
 #include <gtest/gtest.h>
 
-#include "host/identify/identification.hpp"
+#include "host/tools/identify/identification.hpp"
 #include "tests/identify/simulated_record.hpp"
 
 namespace muro::host {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "host/identify/motor_fit.hpp"
+#include "host/tools/identify/motor_fit.hpp"
 #include "tests/identify/simulated_record.hpp"
 #include "tests/support/files.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "host/identify/identification.hpp"
+#include "host/tools/identify/identification.hpp"
 
 namespace muro::host {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "host/identify/record.hpp"
+#include "host/tools/identify/record.hpp"
 
 namespace muro::host {
 namespace {

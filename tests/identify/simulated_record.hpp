@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "host/identify/motor_simulation.hpp"
+#include "host/tools/identify/motor_simulation.hpp"
 #include "muro/toolkit/random.hpp"
 
 namespace muro::test {

@@ -6,7 +6,7 @@
 
 #include "core/instance.hpp"
 #include "host/scenario/builder.hpp"
-#include "host/shadows.hpp"
+#include "host/scenario/shadows.hpp"
 #include "muro/vocabulary.hpp"
 #include "tests/support/scene.hpp"
 

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "tests/support/files.hpp"
@@ -116,7 +118,8 @@ TEST(Documents, GeneratedPagesAreWhatTheProgramPrints) {
 
 TEST(Documents, PropertiesAreThoseOfTheVocabulary) {
   const std::string listed = run_command(environment + MURO_PROGRAM + " properties").output;
-  const std::string vocabulary = text_of(root + "sdk/muro/vocabulary.hpp");
+  std::string vocabulary;
+  for (const auto& entry : fs::directory_iterator(root + "sdk/muro/vocabulary")) vocabulary += text_of(entry.path());
   const std::regex key(R"re(inline constexpr Key<[^>]+> \w+\{\s*"([^"]+)")re");
   int keys = 0;
   for (auto it = std::sregex_iterator(vocabulary.begin(), vocabulary.end(), key); it != std::sregex_iterator(); ++it) {
@@ -126,6 +129,64 @@ TEST(Documents, PropertiesAreThoseOfTheVocabulary) {
   int lines = 0;
   for (std::size_t at = 0; (at = listed.find("\n  ", at)) != std::string::npos; ++at) ++lines;
   EXPECT_EQ(lines, keys) << "and no other, beside titles";
+}
+
+TEST(Documents, TheGlossaryIsSortedAndHasEachTermOnce) {
+  std::istringstream text(text_of(root + "docs/glossary.md"));
+  std::string before;
+  int terms = 0;
+  for (std::string line; std::getline(text, line);) {
+    if (!line.starts_with("| ") || line.starts_with("| term |")) continue;
+    std::string term = line.substr(2, line.find(" | ", 2) - 2);
+    std::erase_if(term, [](char c) { return c == '`' || c == '*'; });
+    for (char& c : term) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    EXPECT_LT(before, term);
+    before = term;
+    ++terms;
+  }
+  EXPECT_GT(terms, 100);
+}
+
+TEST(Documents, TheSdksPageListsEachHeader) {
+  const std::string page = text_of(root + "sdk/README.md");
+  for (const auto& entry : fs::recursive_directory_iterator(root + "sdk/muro")) {
+    const std::string header = entry.path().lexically_relative(root + "sdk").string();
+    if (!entry.is_regular_file() || header.find("/detail/") != std::string::npos) continue;
+    EXPECT_NE(page.find("(" + header + ")"), std::string::npos) << header;
+  }
+}
+
+/// The anchors of a page's headings, as GitHub makes them.
+std::set<std::string> anchors_of(const std::string& page) {
+  std::set<std::string> anchors;
+  std::istringstream text(text_of(root + page));
+  bool is_code = false;
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("```")) is_code = !is_code;
+    if (is_code || !line.starts_with("#")) continue;
+    std::string anchor;
+    for (const char c : line.substr(line.find_first_not_of("# ")))
+      if (c == ' ' || c == '-')
+        anchor += '-';
+      else if (std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c < 0)
+        anchor += char(std::tolower(static_cast<unsigned char>(c)));
+    anchors.insert(anchor);
+  }
+  return anchors;
+}
+
+TEST(Documents, EveryHeadingTheyLinkToExists) {
+  const std::regex link(R"re(\]\(([^)#:\s]*)#([^)\s]+)\))re");
+  for (const std::string& page : pages()) {
+    const std::string text = text_of(root + page);
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), link); it != std::sregex_iterator(); ++it) {
+      const std::string file = (*it)[1].str();
+      const std::string target =
+          file.empty() ? page : (fs::path(page).parent_path() / file).lexically_normal().string();
+      if (!target.ends_with(".md")) continue;
+      EXPECT_TRUE(anchors_of(target).contains((*it)[2].str())) << page << ": " << (*it)[0].str();
+    }
+  }
 }
 
 TEST(Documents, EveryFileTheyLinkToExists) {

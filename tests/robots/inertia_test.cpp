@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/rotations.hpp"
-#include "plugins/common/multibody/consistent_inertia.hpp"
+#include "plugins/motion/common/multibody/consistent_inertia.hpp"
 #include "tests/robots/trial.hpp"
 #include "tests/support/bodies.hpp"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"
-#include "host/unsupported_features/unsupported_features.hpp"
+#include "host/scenario/features/unsupported_features.hpp"
 #include "muro/vocabulary.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"

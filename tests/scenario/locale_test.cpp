@@ -7,7 +7,7 @@
 #include <locale>
 #include <nlohmann/json.hpp>
 
-#include "host/report.hpp"
+#include "host/outputs/report.hpp"
 #include "host/scenario/builder.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"

@@ -2,7 +2,6 @@
 // Colours and pictures of materials that the scenario states in place of the model.
 #include <gtest/gtest.h>
 
-#include "host/constants.hpp"
 #include "host/scenario/builder.hpp"
 #include "muro/vocabulary.hpp"
 #include "tests/support/complaint.hpp"
@@ -48,7 +47,7 @@ class MaterialsOfAModel : public testing::Test {
   }
   static std::vector<Shape> shapes(const BuiltScenario& b, const std::string& robot = "r") {
     const World& world = b.simulation->world();
-    const std::span<const Shape> all = constants(world, world.object(robot + "/box"), keys::visual_shapes);
+    const std::span<const Shape> all = world.constants(world.object(robot + "/box"), keys::visual_shapes);
     return {all.begin(), all.end()};
   }
   std::string refusal(const std::string& keys) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/report.hpp"
+#include "host/outputs/report.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "host/scenario/builder.hpp"
-#include "host/unsupported_features/unsupported_features.hpp"
+#include "host/scenario/features/unsupported_features.hpp"
 #include "muro/vocabulary.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "host/free_camera.hpp"
+#include "host/outputs/free_camera.hpp"
 #include "host/scenario/builder.hpp"
 #include "host/scenario/overlaps.hpp"
 #include "muro/toolkit/rotations.hpp"

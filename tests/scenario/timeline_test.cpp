@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/timeline.hpp"
+#include "host/outputs/timeline.hpp"
 
 #include <gtest/gtest.h>
 

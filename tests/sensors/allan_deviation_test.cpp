@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The estimate of `muro sensors allan` and what it expects, against closed forms.
-#include "host/sensors/allan_deviation.hpp"
+#include "host/tools/sensors/allan_deviation.hpp"
 
 #include <gtest/gtest.h>
 

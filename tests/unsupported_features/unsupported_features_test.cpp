@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/unsupported_features/unsupported_features.hpp"
+#include "host/scenario/features/unsupported_features.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a robot uses of its motion, found by its model and its parameters.
-#include "host/unsupported_features/used_features.hpp"
+#include "host/scenario/features/used_features.hpp"
 
 #include <gtest/gtest.h>
 

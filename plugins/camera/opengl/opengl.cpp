@@ -12,7 +12,7 @@
 #include "muro/toolkit/mounting.hpp"
 #include "muro/toolkit/number_text.hpp"
 #include "muro/toolkit/rotations.hpp"
-#include "plugins/common/constant_twist/constant_twist.hpp"
+#include "plugins/common/link_motion/constant_twist.hpp"
 #include "plugins/common/render/color_renderer.hpp"
 #include "plugins/common/render/depth_renderer.hpp"
 #include "plugins/common/render/device.hpp"

@@ -4,7 +4,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <btBulletCollisionCommon.h>
 
-#include "plugins/common/bullet/bullet_types.hpp"
+#include "plugins/common/engines/bullet/bullet_types.hpp"
 
 namespace muro::bullet_collision {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "plugins/common/contact_geometry/engine.hpp"
-#include "plugins/common/ode/error_trap.hpp"
-#include "plugins/common/ode/ode_library.hpp"
+#include "plugins/common/engines/ode/error_trap.hpp"
+#include "plugins/common/engines/ode/ode_library.hpp"
 
 namespace muro::ode_collision {
 

@@ -4,7 +4,7 @@
 #include "engine.hpp"
 #include "geometry_table.hpp"
 #include "per_thread.hpp"
-#include "plugins/common/terrain_contact/scene_heightmaps.hpp"
+#include "plugins/common/contact_geometry/terrain/scene_heightmaps.hpp"
 
 namespace muro::contact_geometry {
 

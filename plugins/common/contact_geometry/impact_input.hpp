@@ -2,8 +2,8 @@
 // What the contact algorithm tells of impacts within the last step.
 #pragma once
 
-#include "impact_correction.hpp"
 #include "muro/algorithm.hpp"
+#include "muro/vocabulary/contact.hpp"
 
 namespace muro::contact_geometry {
 

@@ -2,8 +2,8 @@
 // The path of a body after an impact within the last step.
 #pragma once
 
-#include "impact_correction.hpp"
 #include "muro/simd/rows.hpp"
+#include "muro/vocabulary/contact.hpp"
 #include "plugins/common/lanes/mass.hpp"
 #include "plugins/common/lanes/rotation.hpp"
 #include "plugins/common/lanes/vectors.hpp"

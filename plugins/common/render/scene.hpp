@@ -9,7 +9,7 @@
 
 #include "image.hpp"
 #include "plugins/common/heightmap/heightmap_file.hpp"
-#include "plugins/common/scene_bodies/scene_bodies.hpp"
+#include "plugins/common/render/scene_bodies.hpp"
 #include "surface.hpp"
 
 namespace muro::render {

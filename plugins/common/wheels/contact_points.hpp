@@ -8,7 +8,7 @@
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/link_pose.hpp"
 #include "muro/vocabulary.hpp"
-#include "plugins/common/ground/standing.hpp"
+#include "plugins/common/wheels/standing.hpp"
 #include "wheel_finder.hpp"
 
 namespace muro::wheels {

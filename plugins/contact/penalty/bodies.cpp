@@ -9,7 +9,7 @@
 #include "apparent_mass.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/random.hpp"
-#include "plugins/common/contact_geometry/carried_mass.hpp"
+#include "muro/vocabulary/contact.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::penalty {

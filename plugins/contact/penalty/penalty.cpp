@@ -7,8 +7,8 @@
 
 #include "muro/plugin.hpp"
 #include "muro/toolkit/number_text.hpp"
+#include "muro/vocabulary/contact.hpp"
 #include "pair_contacts.hpp"
-#include "plugins/common/contact_geometry/carried_mass.hpp"
 #include "scenery_contacts.hpp"
 
 namespace {

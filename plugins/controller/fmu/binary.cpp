@@ -6,8 +6,8 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/whole_library.hpp"
-#include "plugins/common/own_symbols/own_symbols.hpp"
 #include "plugins/common/text/one_line.hpp"
+#include "plugins/controller/common/own_symbols/own_symbols.hpp"
 
 namespace muro::fmu {
 

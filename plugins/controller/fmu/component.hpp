@@ -13,7 +13,7 @@
 #include "model_description.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/ext/call_note.hpp"
-#include "plugins/common/copy_guard/copy_guard.hpp"
+#include "plugins/controller/common/copy_guard/copy_guard.hpp"
 
 namespace muro::fmu {
 

@@ -5,8 +5,8 @@
 
 #include "muro/algorithm.hpp"
 #include "number.hpp"
-#include "plugins/common/scalar/with_scalar.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/common/text/with_scalar.hpp"
 
 namespace muro::fmu {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model_description.hpp"
-#include "plugins/common/property_search/property_search.hpp"
+#include "plugins/controller/common/property_search/property_search.hpp"
 
 namespace muro::fmu {
 

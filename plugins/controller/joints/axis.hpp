@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "muro/geometry.hpp"
-#include "plugins/common/wire_protocol/group.hpp"
+#include "plugins/controller/common/wire_protocol/group.hpp"
 
 namespace muro::joints {
 

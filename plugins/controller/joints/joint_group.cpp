@@ -3,8 +3,8 @@
 
 #include "plugins/common/text/counted.hpp"
 #include "plugins/common/text/quote.hpp"
-#include "plugins/common/wire_protocol/fault.hpp"
-#include "plugins/common/wire_protocol/number_text.hpp"
+#include "plugins/controller/common/wire_protocol/fault.hpp"
+#include "plugins/controller/common/wire_protocol/number_text.hpp"
 
 namespace muro::joints {
 

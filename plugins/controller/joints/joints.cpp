@@ -10,8 +10,8 @@
 #include "muro/plugin.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/text/quote.hpp"
-#include "plugins/common/wire_protocol/group_text.hpp"
-#include "plugins/common/wire_protocol/wire_controller.hpp"
+#include "plugins/controller/common/wire_protocol/group_text.hpp"
+#include "plugins/controller/common/wire_protocol/wire_controller.hpp"
 
 namespace {
 

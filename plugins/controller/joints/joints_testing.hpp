@@ -2,7 +2,7 @@
 // Robots that clients control, for tests.
 #pragma once
 
-#include "plugins/common/wire_protocol/dialogue_testing.hpp"
+#include "plugins/controller/common/wire_protocol/dialogue_testing.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/complaint.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "plugins/common/stream/stream.hpp"
+#include "plugins/controller/common/stream/stream.hpp"
 
 namespace muro::jsonrpc {
 

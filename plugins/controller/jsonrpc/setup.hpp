@@ -4,7 +4,7 @@
 
 #include "grants.hpp"
 #include "muro/algorithm.hpp"
-#include "plugins/common/stream/address.hpp"
+#include "plugins/controller/common/stream/address.hpp"
 #include "scene_names.hpp"
 
 namespace muro::jsonrpc {

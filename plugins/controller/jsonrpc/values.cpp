@@ -10,8 +10,8 @@
 #include <limits>
 #include <utility>
 
-#include "plugins/common/scalar/with_scalar.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/common/text/with_scalar.hpp"
 
 namespace muro::jsonrpc {
 

@@ -8,7 +8,7 @@
 
 #include "muro/connector.hpp"
 #include "muro_controller.h"
-#include "plugins/common/property_search/property_search.hpp"
+#include "plugins/controller/common/property_search/property_search.hpp"
 
 namespace muro::control {
 

@@ -12,8 +12,8 @@
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/whole_library.hpp"
 #include "plugins/common/child_process/own_folder.hpp"
-#include "plugins/common/own_symbols/own_symbols.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/controller/common/own_symbols/own_symbols.hpp"
 #include "table_check.hpp"
 
 namespace muro::control {

@@ -7,7 +7,7 @@
 #include "control_instance.hpp"
 #include "muro/algorithm.hpp"
 #include "plugins/common/child_process/child_process.hpp"
-#include "plugins/common/shared_call/shared_memory.hpp"
+#include "plugins/controller/common/shared_call/shared_memory.hpp"
 
 namespace muro::control {
 

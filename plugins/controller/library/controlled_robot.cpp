@@ -10,8 +10,8 @@
 #include "local_instance.hpp"
 #include "muro/toolkit/number_text.hpp"
 #include "muro/toolkit/random.hpp"
+#include "muro/vocabulary/radio.hpp"
 #include "outcome_text.hpp"
-#include "plugins/common/radio/keys.hpp"
 #include "plugins/common/text/counted.hpp"
 #include "plugins/common/text/one_line.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -140,8 +140,8 @@ Port ControlledRobot::connect_port(Connector& c, const PropertyFinder& finder, c
 
 /// Messages that have come by radio are listed for a while: what comes and goes between two steps is never read.
 void ControlledRobot::doubt_if_too_slow(const Connector& c, const FoundProperty& found, const muro_port& port) {
-  if (found.key->name != radio::key_received.name || !(c.rate() > 0)) return;
-  const std::optional<double> keep = c.constant(found.object, radio::key_keep);
+  if (found.key->name != keys::radio_received.name || !(c.rate() > 0)) return;
+  const std::optional<double> keep = c.constant(found.object, keys::radio_keep);
   const double period = 1 / c.rate();
   if (!keep || *keep >= period * (1 - 1e-9)) return;
   doubts_.push_back(about(port, true) + " is read at " + number_text(c.rate()) + " Hz, but " +

@@ -5,7 +5,7 @@
 #include <new>
 #include <utility>
 
-#include "plugins/common/copy_guard/copy_guard.hpp"
+#include "plugins/controller/common/copy_guard/copy_guard.hpp"
 
 namespace muro::control {
 

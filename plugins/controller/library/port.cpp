@@ -8,7 +8,7 @@
 
 #include "muro/object.hpp"
 #include "muro/scene.hpp"
-#include "plugins/common/scalar/with_scalar.hpp"
+#include "plugins/common/text/with_scalar.hpp"
 
 namespace muro::control {
 

@@ -11,7 +11,7 @@
 #include "crash_note.hpp"
 #include "local_instance.hpp"
 #include "plugins/common/child_process/as_child.hpp"
-#include "plugins/common/shared_call/shared_memory.hpp"
+#include "plugins/controller/common/shared_call/shared_memory.hpp"
 #include "process_protocol.hpp"
 
 namespace muro::control {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "control_instance.hpp"
-#include "plugins/common/shared_call/turn.hpp"
+#include "plugins/controller/common/shared_call/turn.hpp"
 
 namespace muro::control {
 

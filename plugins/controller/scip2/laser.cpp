@@ -12,9 +12,6 @@ namespace muro::scip2 {
 
 namespace {
 
-constexpr Key<double> min_elevation{"laser.min_elevation", "rad", "elevation of the first row"};
-constexpr Key<double> elevation_increment{"laser.elevation_increment", "rad", "from row to row"};
-
 const FoundProperty* property(const Connector& c, ObjectId object, std::string_view name) {
   for (const FoundProperty& p : c.properties(object))
     if (p.key->name == name && p.multiplicity == Multiplicity::array && *p.key->type == value_type<double>) return &p;
@@ -91,8 +88,8 @@ void Laser::read_grid(Connector& c, ObjectId laser, const std::string& name) {
     throw Error(name + " looks along a list of directions, which no property tells; the device needs rays at equal " +
                 "steps: replace `directions` by `min_angle`, `max_angle` and `rays`");
   const std::uint32_t rows = c.constant(laser, keys::laser_rows).value_or(1);
-  const double first = c.constant(laser, min_elevation).value_or(0);
-  const double spacing = c.constant(laser, elevation_increment).value_or(0);
+  const double first = c.constant(laser, keys::laser_min_elevation).value_or(0);
+  const double spacing = c.constant(laser, keys::laser_elevation_increment).value_or(0);
   std::uint32_t level = 0;  // the row that is nearest to the horizontal
   for (std::uint32_t row = 1; row < rows; ++row)
     if (std::abs(first + row * spacing) < std::abs(first + level * spacing)) level = row;

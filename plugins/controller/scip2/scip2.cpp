@@ -9,7 +9,7 @@
 #include "device.hpp"
 #include "laser.hpp"
 #include "muro/plugin.hpp"
-#include "plugins/common/stream/stream.hpp"
+#include "plugins/controller/common/stream/stream.hpp"
 #include "settings.hpp"
 
 namespace {

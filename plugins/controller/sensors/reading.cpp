@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "plugins/common/scalar/with_scalar.hpp"
+#include "plugins/common/text/with_scalar.hpp"
 
 namespace muro::sensors {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "plugins/common/property_search/property_search.hpp"
+#include "plugins/controller/common/property_search/property_search.hpp"
 
 namespace muro::sensors {
 

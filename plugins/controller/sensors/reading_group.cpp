@@ -2,8 +2,8 @@
 #include "reading_group.hpp"
 
 #include "plugins/common/text/quote.hpp"
-#include "plugins/common/wire_protocol/fault.hpp"
-#include "plugins/common/wire_protocol/number_text.hpp"
+#include "plugins/controller/common/wire_protocol/fault.hpp"
+#include "plugins/controller/common/wire_protocol/number_text.hpp"
 
 namespace muro::sensors {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "plugins/common/wire_protocol/group.hpp"
+#include "plugins/controller/common/wire_protocol/group.hpp"
 #include "reading.hpp"
 
 namespace muro::sensors {

@@ -5,8 +5,8 @@
 
 #include "muro/plugin.hpp"
 #include "plugins/common/text/quote.hpp"
-#include "plugins/common/wire_protocol/group_text.hpp"
-#include "plugins/common/wire_protocol/wire_controller.hpp"
+#include "plugins/controller/common/wire_protocol/group_text.hpp"
+#include "plugins/controller/common/wire_protocol/wire_controller.hpp"
 #include "reading_finder.hpp"
 #include "reading_group.hpp"
 

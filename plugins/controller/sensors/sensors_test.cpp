@@ -5,8 +5,8 @@
 #include <cstring>
 #include <thread>
 
-#include "plugins/common/wire_protocol/dialogue_testing.hpp"
-#include "plugins/common/wire_protocol/frame.hpp"
+#include "plugins/controller/common/wire_protocol/dialogue_testing.hpp"
+#include "plugins/controller/common/wire_protocol/frame.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/complaint.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A laser scanner by the method that is the fastest here; see README.md.
 #include "method_selector.hpp"
-#include "plugins/common/scanner/scanner.hpp"
+#include "plugins/laser/common/scanner/scanner.hpp"
 #ifdef MURO_AUTO_ZBUFFER
-#include "plugins/common/laser_methods/zbuffer/zbuffer_method.hpp"
+#include "plugins/laser/common/zbuffer/zbuffer_method.hpp"
 #endif
 
 namespace {

@@ -6,12 +6,12 @@
 #include <cstdio>
 
 #include "muro/algorithm.hpp"
-#include "plugins/common/laser_methods/raycast/raycast_method.hpp"
+#include "plugins/laser/common/raycast/raycast_method.hpp"
 #ifdef MURO_AUTO_ZBUFFER
-#include "plugins/common/laser_methods/zbuffer/zbuffer_method.hpp"
+#include "plugins/laser/common/zbuffer/zbuffer_method.hpp"
 #endif
 #ifdef MURO_AUTO_EMBREE
-#include "plugins/common/laser_methods/embree/embree_method.hpp"
+#include "plugins/laser/common/embree/embree_method.hpp"
 #endif
 
 namespace muro::laser_auto {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "plugins/common/scanner/method.hpp"
+#include "plugins/laser/common/scanner/method.hpp"
 
 namespace muro::laser_auto {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A laser scanner by ray casting with Embree; see README.md.
-#include "plugins/common/laser_methods/embree/embree_method.hpp"
-#include "plugins/common/scanner/scanner.hpp"
+#include "plugins/laser/common/embree/embree_method.hpp"
+#include "plugins/laser/common/scanner/scanner.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A laser scanner by exact ray casting; see README.md.
-#include "plugins/common/laser_methods/raycast/raycast_method.hpp"
 #include "plugins/common/mesh/collision_mesh.hpp"
-#include "plugins/common/scanner/scanner.hpp"
+#include "plugins/laser/common/raycast/raycast_method.hpp"
+#include "plugins/laser/common/scanner/scanner.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A laser scanner by depth images (MuRoSimF, Section 4.1); see README.md.
-#include "plugins/common/laser_methods/zbuffer/zbuffer_method.hpp"
-#include "plugins/common/scanner/scanner.hpp"
+#include "plugins/laser/common/scanner/scanner.hpp"
+#include "plugins/laser/common/zbuffer/zbuffer_method.hpp"
 
 namespace {
 

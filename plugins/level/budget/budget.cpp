@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "muro/plugin.hpp"
-#include "plugins/common/level_rules/rules_algorithm.hpp"
+#include "plugins/level/common/level_rules/rules_algorithm.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Chooses which of its motions moves a robot: by time, by distance to other robots, by contact.
 #include "muro/plugin.hpp"
-#include "plugins/common/level_rules/rules_algorithm.hpp"
+#include "plugins/level/common/level_rules/rules_algorithm.hpp"
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include "description.hpp"
 #include "muro/toolkit/accelerations.hpp"
 #include "plugins/common/mesh/hull_vertices.hpp"
-#include "plugins/common/multibody/kinematic_robot.hpp"
 #include "plugins/common/text/quote.hpp"
-#include "plugins/common/watch/robot_watch.hpp"
+#include "plugins/motion/common/multibody/kinematic_robot.hpp"
+#include "plugins/motion/common/watch/robot_watch.hpp"
 #include "robot.hpp"
 
 namespace {

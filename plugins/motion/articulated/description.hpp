@@ -4,7 +4,7 @@
 
 #include "muro/plugin.hpp"
 #include "muro/toolkit/accelerations.hpp"
-#include "plugins/common/multibody/engine_parameters.hpp"
+#include "plugins/motion/common/multibody/engine_parameters.hpp"
 
 namespace muro::articulated {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mimic_groups.hpp"
-#include "plugins/common/multibody/robot_model.hpp"
+#include "plugins/motion/common/multibody/robot_model.hpp"
 #include "structure.hpp"
 
 namespace muro::articulated {

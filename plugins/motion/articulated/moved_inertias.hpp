@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The inertias that joints move, of a pack of robots: those of plugins/common/position_drive/moved_inertias.hpp.
+// The inertias that joints move, of a pack of robots: those of plugins/motion/common/position_drive/moved_inertias.hpp.
 #pragma once
 
 #include "dynamics.hpp"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "plugins/common/multibody/robot_model.hpp"
+#include "plugins/motion/common/multibody/robot_model.hpp"
 
 namespace muro::articulated {
 

@@ -7,14 +7,14 @@
 #include "muro/simd/numbers.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/random.hpp"
-#include "plugins/common/contact_geometry/carried_mass.hpp"
+#include "muro/vocabulary/contact.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/contact_geometry/impact_path.hpp"
-#include "plugins/common/multibody/engine_parameters.hpp"
-#include "plugins/common/multibody/joint_target.hpp"
-#include "plugins/common/position_drive/settled_modes.hpp"
 #include "plugins/common/text/quote.hpp"
-#include "plugins/common/watch/robot_watch.hpp"
+#include "plugins/motion/common/multibody/engine_parameters.hpp"
+#include "plugins/motion/common/position_drive/joint_target.hpp"
+#include "plugins/motion/common/position_drive/settled_modes.hpp"
+#include "plugins/motion/common/watch/robot_watch.hpp"
 
 namespace muro::articulated {
 

@@ -8,8 +8,8 @@
 
 #include "model.hpp"
 #include "plugins/common/contact_geometry/impact_input.hpp"
-#include "plugins/common/position_drive/drive_losses.hpp"
-#include "plugins/common/position_drive/position_target.hpp"
+#include "plugins/motion/common/position_drive/drive_losses.hpp"
+#include "plugins/motion/common/position_drive/position_target.hpp"
 #include "robot_contacts.hpp"
 #include "self_contacts.hpp"
 

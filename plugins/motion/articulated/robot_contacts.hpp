@@ -8,7 +8,7 @@
 #include "kept_contact.hpp"
 #include "muro/algorithm.hpp"
 #include "plugins/common/contact_geometry/disc_contact.hpp"
-#include "plugins/common/multibody/robot_model.hpp"
+#include "plugins/motion/common/multibody/robot_model.hpp"
 
 namespace muro::articulated {
 

@@ -16,7 +16,7 @@ namespace {
 using namespace lane;
 using namespace lanes;
 
-/// m, m/s, rad/s: what diverges passes this on its way to infinity (plugins/common/watch).
+/// m, m/s, rad/s: what diverges passes this on its way to infinity (plugins/motion/common/watch).
 constexpr double beyond = 1e12;
 
 /// Of the bases of robots.

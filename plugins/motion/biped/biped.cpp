@@ -9,8 +9,8 @@
 #include "muro/plugin.hpp"
 #include "muro/toolkit/accelerations.hpp"
 #include "muro/toolkit/per_robot.hpp"
-#include "plugins/common/kinematic_joints/kinematic_joints.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/motion/common/kinematic_joints/kinematic_joints.hpp"
 #include "stance.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 
 #include "muro/robot.hpp"
 #include "muro/toolkit/rotations.hpp"
-#include "plugins/common/link_acceleration/frame_motion.hpp"
+#include "plugins/common/link_motion/frame_motion.hpp"
 
 namespace muro::biped {
 

@@ -3,9 +3,9 @@
 // drives by sequential impulses.
 #include "bullet_world.hpp"
 #include "muro/plugin.hpp"
-#include "plugins/common/multibody/engine_description.hpp"
-#include "plugins/common/multibody/engine_parameters.hpp"
-#include "plugins/common/multibody/motion.hpp"
+#include "plugins/motion/common/multibody/engine_description.hpp"
+#include "plugins/motion/common/multibody/engine_parameters.hpp"
+#include "plugins/motion/common/multibody/motion.hpp"
 
 namespace {
 

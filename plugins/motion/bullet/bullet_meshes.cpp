@@ -5,7 +5,7 @@
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
 
-#include "plugins/common/bullet/bullet_types.hpp"
+#include "plugins/common/engines/bullet/bullet_types.hpp"
 
 namespace muro::bullet {
 

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "plugins/common/multibody/mesh_shapes.hpp"
+#include "plugins/motion/common/multibody/mesh_shapes.hpp"
 
 namespace muro::bullet {
 

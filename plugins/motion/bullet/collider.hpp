@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "bullet_meshes.hpp"
-#include "plugins/common/bullet/bullet_types.hpp"
 #include "plugins/common/contact_geometry/disc_contact.hpp"
-#include "plugins/common/multibody/world.hpp"
+#include "plugins/common/engines/bullet/bullet_types.hpp"
+#include "plugins/motion/common/multibody/world.hpp"
 
 namespace muro::bullet {
 

@@ -8,7 +8,7 @@
 #include "mujoco_library.hpp"
 #include "mujoco_meshes.hpp"
 #include "mujoco_settings.hpp"
-#include "plugins/common/multibody/world.hpp"
+#include "plugins/motion/common/multibody/world.hpp"
 
 namespace muro::mujoco {
 

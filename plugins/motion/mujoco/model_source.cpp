@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "muro/toolkit/number_text.hpp"
-#include "plugins/common/builder_calls/model_constants.hpp"
 #include "plugins/common/parser_process/ask.hpp"
+#include "plugins/common/parser_process/builder_calls/model_constants.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::mujoco {

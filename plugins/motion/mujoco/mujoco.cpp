@@ -6,9 +6,9 @@
 #include "model_world.hpp"
 #include "mujoco_world.hpp"
 #include "muro/plugin.hpp"
-#include "plugins/common/multibody/engine_description.hpp"
-#include "plugins/common/multibody/engine_parameters.hpp"
-#include "plugins/common/multibody/motion.hpp"
+#include "plugins/motion/common/multibody/engine_description.hpp"
+#include "plugins/motion/common/multibody/engine_parameters.hpp"
+#include "plugins/motion/common/multibody/motion.hpp"
 
 namespace {
 

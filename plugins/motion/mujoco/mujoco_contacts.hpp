@@ -8,7 +8,7 @@
 #include "mujoco_robot.hpp"
 #include "mujoco_settings.hpp"
 #include "plugins/common/contact_geometry/disc_contact.hpp"
-#include "plugins/common/terrain_contact/terrain_contacts.hpp"
+#include "plugins/common/contact_geometry/terrain/terrain_contacts.hpp"
 
 namespace muro::mujoco {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "plugins/common/multibody/mesh_shapes.hpp"
+#include "plugins/motion/common/multibody/mesh_shapes.hpp"
 
 namespace muro::mujoco {
 

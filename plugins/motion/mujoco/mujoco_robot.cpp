@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mjcf.hpp"
-#include "plugins/common/multibody/free_rotation.hpp"
+#include "plugins/motion/common/multibody/free_rotation.hpp"
 
 namespace muro::mujoco {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "mujoco_library.hpp"
-#include "plugins/common/multibody/world.hpp"
+#include "plugins/motion/common/multibody/world.hpp"
 
 namespace muro::mujoco {
 

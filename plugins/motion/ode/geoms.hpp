@@ -7,7 +7,7 @@
 #include "muro/scene.hpp"
 #include "ode_meshes.hpp"
 #include "plugins/common/contact_geometry/disc_contact.hpp"
-#include "plugins/common/multibody/world.hpp"
+#include "plugins/motion/common/multibody/world.hpp"
 
 namespace muro::ode {
 

@@ -7,10 +7,10 @@
 #include "geoms.hpp"
 #include "muro/plugin.hpp"
 #include "ode_world.hpp"
-#include "plugins/common/multibody/engine_description.hpp"
-#include "plugins/common/multibody/engine_parameters.hpp"
-#include "plugins/common/multibody/motion.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/motion/common/multibody/engine_description.hpp"
+#include "plugins/motion/common/multibody/engine_parameters.hpp"
+#include "plugins/motion/common/multibody/motion.hpp"
 #include "quick_convergence.hpp"
 
 namespace {

@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "plugins/common/multibody/mesh_shapes.hpp"
-#include "plugins/common/ode/ode_library.hpp"
+#include "plugins/common/engines/ode/ode_library.hpp"
+#include "plugins/motion/common/multibody/mesh_shapes.hpp"
 
 namespace muro::ode {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "muro/toolkit/elementary.hpp"
-#include "plugins/common/multibody/free_rotation.hpp"
+#include "plugins/motion/common/multibody/free_rotation.hpp"
 
 namespace muro::ode {
 

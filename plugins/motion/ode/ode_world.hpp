@@ -3,7 +3,7 @@
 
 #include "ode_robot.hpp"
 #include "ode_settings.hpp"
-#include "plugins/common/ode/error_trap.hpp"
+#include "plugins/common/engines/ode/error_trap.hpp"
 #include "split_step.hpp"
 
 namespace muro::ode {

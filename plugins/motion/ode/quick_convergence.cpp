@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "plugins/common/multibody/forward_kinematics.hpp"
+#include "plugins/motion/common/multibody/forward_kinematics.hpp"
 
 namespace muro::ode {
 

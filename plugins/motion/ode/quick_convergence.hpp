@@ -2,7 +2,7 @@
 // Whether ODE's iterative solver holds the joints of a robot.
 #pragma once
 
-#include "plugins/common/multibody/robot_model.hpp"
+#include "plugins/motion/common/multibody/robot_model.hpp"
 
 namespace muro::ode {
 

@@ -7,9 +7,9 @@
 #include "muro/toolkit/contact_stop.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "muro/toolkit/rotations.hpp"
-#include "plugins/common/ground/terrain.hpp"
-#include "plugins/common/kinematic_joints/kinematic_joints.hpp"
+#include "plugins/common/wheels/terrain.hpp"
 #include "plugins/common/wheels/wheel_finder.hpp"
+#include "plugins/motion/common/kinematic_joints/kinematic_joints.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "plugins/common/position_drive/body_frame.hpp"
+#include "plugins/motion/common/position_drive/body_frame.hpp"
 
 namespace muro::simplified {
 

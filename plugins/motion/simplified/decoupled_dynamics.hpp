@@ -7,7 +7,7 @@
 
 #include "muro/handles.hpp"
 #include "muro/robot.hpp"
-#include "plugins/common/position_drive/moved_inertias.hpp"
+#include "plugins/motion/common/position_drive/moved_inertias.hpp"
 
 namespace muro::simplified {
 

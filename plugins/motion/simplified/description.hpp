@@ -4,8 +4,8 @@
 
 #include "muro/plugin.hpp"
 #include "muro/toolkit/accelerations.hpp"
-#include "plugins/common/position_drive/position_drive.hpp"
-#include "plugins/common/watch/parameters.hpp"
+#include "plugins/motion/common/position_drive/position_drive.hpp"
+#include "plugins/motion/common/watch/parameters.hpp"
 
 namespace muro::simplified {
 

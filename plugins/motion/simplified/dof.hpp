@@ -7,7 +7,7 @@
 
 #include "joint_motion.hpp"
 #include "muro/robot.hpp"
-#include "plugins/common/position_drive/position_drive.hpp"
+#include "plugins/motion/common/position_drive/position_drive.hpp"
 
 namespace muro::simplified {
 

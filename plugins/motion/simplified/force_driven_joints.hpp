@@ -7,8 +7,8 @@
 #include "decoupled_dynamics.hpp"
 #include "dof.hpp"
 #include "joint_properties.hpp"
-#include "plugins/common/position_drive/drive_losses.hpp"
-#include "plugins/common/position_drive/position_target.hpp"
+#include "plugins/motion/common/position_drive/drive_losses.hpp"
+#include "plugins/motion/common/position_drive/position_target.hpp"
 
 namespace muro::simplified {
 

@@ -10,7 +10,7 @@
 #include "muro/simd/numbers.hpp"
 #include "muro/toolkit/joint_drives.hpp"
 #include "muro/toolkit/mass_properties.hpp"
-#include "plugins/common/multibody/joint_target.hpp"
+#include "plugins/motion/common/position_drive/joint_target.hpp"
 
 namespace muro::simplified {
 

@@ -7,7 +7,7 @@
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/vocabulary.hpp"
-#include "plugins/common/multibody/missing_inertia.hpp"
+#include "plugins/motion/common/multibody/missing_inertia.hpp"
 
 namespace muro::simplified {
 

@@ -20,12 +20,12 @@
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/contact_geometry/impact_input.hpp"
-#include "plugins/common/kinematic_joints/moving_mass.hpp"
 #include "plugins/common/mesh/hull_vertices.hpp"
-#include "plugins/common/multibody/consistent_inertia.hpp"
-#include "plugins/common/position_drive/settled_modes.hpp"
 #include "plugins/common/text/quote.hpp"
-#include "plugins/common/watch/robot_watch.hpp"
+#include "plugins/motion/common/kinematic_joints/moving_mass.hpp"
+#include "plugins/motion/common/multibody/consistent_inertia.hpp"
+#include "plugins/motion/common/position_drive/settled_modes.hpp"
+#include "plugins/motion/common/watch/robot_watch.hpp"
 
 namespace {
 

@@ -2,7 +2,7 @@
 // The state of a radio: lists and blocks in properties, without padding.
 #pragma once
 
-#include "plugins/common/radio/keys.hpp"
+#include "muro/vocabulary/radio.hpp"
 
 namespace muro::log_distance {
 

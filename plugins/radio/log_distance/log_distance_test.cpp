@@ -27,8 +27,8 @@ TEST(Radio, CarriesBytesWithTimesAndPower) {
   EXPECT_NEAR(h.received, 0.001 + 4.256e-3 + 10 / light, 1e-15) << "(127 + 6) bytes at 250 kbit/s";
   EXPECT_NEAR(h.rssi, -20 * std::log10(4 * M_PI * 2.44e9 / light) - 30, 1e-9);
   EXPECT_EQ(s.text(1, h).substr(0, 6), std::string("hello\0", 6));
-  EXPECT_EQ(s.world().value(s.radios[1].object, radio::key_last).number, 1);
-  EXPECT_EQ(s.world().value(s.radios[1].object, radio::key_last_bytes).bytes[4], 'o');
+  EXPECT_EQ(s.world().value(s.radios[1].object, keys::radio_last).number, 1);
+  EXPECT_EQ(s.world().value(s.radios[1].object, keys::radio_last_bytes).bytes[4], 'o');
   EXPECT_TRUE(s.received(0).empty()) << "nobody hears himself";
   EXPECT_TRUE(s.received(2).empty()) << "out of range, which is 31.2 m";
   EXPECT_EQ(s.counters(0).sent, 1u);
@@ -239,8 +239,8 @@ TEST(Radio, JoinsRobotsOfOneWorldWhateverTheirParameters) {
   EXPECT_EQ(s.counters(0).received, 1u);
   EXPECT_EQ(s.counters(1).received, 1u);
   EXPECT_EQ(s.counters(2).received, 0u);
-  EXPECT_NEAR(s.world().value(s.radios[1].object, radio::key_last).rssi -
-                  s.world().value(s.radios[0].object, radio::key_last).rssi,
+  EXPECT_NEAR(s.world().value(s.radios[1].object, keys::radio_last).rssi -
+                  s.world().value(s.radios[0].object, keys::radio_last).rssi,
               20, 1e-12);
 }
 
@@ -302,9 +302,9 @@ TEST(Radio, TakesAnyNumberAndRefusesMessagesThatAreTooLong) {
   s.place("a", {0, 0, 0});
   s.place("b", {1, 0, 0});
   s.start(100, {{"keep", 10.0}});
-  std::int64_t& number = s.world().value(s.radios[0].object, radio::key_send_number);
+  std::int64_t& number = s.world().value(s.radios[0].object, keys::radio_send_number);
   for (const std::int64_t n : {std::int64_t(5), std::int64_t(-7), INT64_MAX, INT64_MIN, std::int64_t(1)}) {
-    s.world().value(s.radios[0].object, radio::key_send_size) = 1;
+    s.world().value(s.radios[0].object, keys::radio_send_size) = 1;
     number = n;
     s.run_for(0.01);
   }

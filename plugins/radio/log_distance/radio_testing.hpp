@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "plugins/common/radio/keys.hpp"
+#include "muro/vocabulary/radio.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/complaint.hpp"
 
@@ -41,21 +41,21 @@ struct Radios : test::Scene {
   /// Control code of a radio writes a message.
   void send(std::size_t i, const std::string& text, std::int64_t receiver = -1, std::uint32_t size = 0) {
     const ObjectId o = radios[i].object;
-    radio::Payload& payload = world().value(o, radio::key_send_bytes);
+    radio::Payload& payload = world().value(o, keys::radio_send_bytes);
     payload = {};
     std::copy(text.begin(), text.end(), payload.bytes);
-    world().value(o, radio::key_send_size) = size > 0 ? size : std::uint32_t(text.size());
-    world().value(o, radio::key_send_receiver) = receiver;
-    ++world().value(o, radio::key_send_number);
+    world().value(o, keys::radio_send_size) = size > 0 ? size : std::uint32_t(text.size());
+    world().value(o, keys::radio_send_receiver) = receiver;
+    ++world().value(o, keys::radio_send_number);
   }
-  std::span<const Header> received(std::size_t i) { return world().values(radios[i].object, radio::key_received); }
+  std::span<const Header> received(std::size_t i) { return world().values(radios[i].object, keys::radio_received); }
   std::string text(std::size_t i, const Header& h) {
-    const auto bytes = world().values(radios[i].object, radio::key_received_bytes);
+    const auto bytes = world().values(radios[i].object, keys::radio_received_bytes);
     const auto carried = std::min<std::size_t>(std::size_t(h.size), radio::max_bytes);
     return std::string(bytes.begin() + std::ptrdiff_t(h.first),
                        bytes.begin() + std::ptrdiff_t(h.first) + std::ptrdiff_t(carried));
   }
-  const Counters& counters(std::size_t i) { return world().value(radios[i].object, radio::key_counters); }
+  const Counters& counters(std::size_t i) { return world().value(radios[i].object, keys::radio_counters); }
 
   std::vector<Item> radios;
 };

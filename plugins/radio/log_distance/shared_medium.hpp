@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "plugins/common/spatial_hash/spatial_hash.hpp"
+#include "plugins/common/line_of_sight/spatial_hash.hpp"
 #include "radio.hpp"
 
 namespace muro::log_distance {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Reads robots and worlds from MJCF, MuJoCo's format: service.cpp does it, in the parser process.
 #include "muro/plugin.hpp"
-#include "plugins/common/builder_calls/replay.hpp"
 #include "plugins/common/parser_process/ask.hpp"
+#include "plugins/common/parser_process/builder_calls/replay.hpp"
 
 namespace {
 

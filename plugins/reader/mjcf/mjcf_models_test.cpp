@@ -3,8 +3,8 @@
 #include <random>
 
 #include "muro/toolkit/joint_drives.hpp"
-#include "plugins/common/builder_calls/model_constants.hpp"
 #include "plugins/common/mesh/mesh.hpp"
+#include "plugins/common/parser_process/builder_calls/model_constants.hpp"
 #include "reading_testing.hpp"
 
 namespace muro::mjcf {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Through the plugin and the parser process.
 #include "core/simulation.hpp"
-#include "plugins/common/builder_calls/record.hpp"
-#include "plugins/common/builder_calls/replay.hpp"
+#include "plugins/common/parser_process/builder_calls/record.hpp"
+#include "plugins/common/parser_process/builder_calls/replay.hpp"
 #include "reading_testing.hpp"
 #include "tests/support/scene.hpp"
 

@@ -7,8 +7,8 @@
 #include "muro/ext/visual_materials.hpp"
 #include "muro/toolkit/pair_surface.hpp"
 #include "muro/vocabulary.hpp"
-#include "plugins/common/builder_calls/model_constants.hpp"
 #include "plugins/common/model_file/build_tree.hpp"
+#include "plugins/common/parser_process/builder_calls/model_constants.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::mjcf {

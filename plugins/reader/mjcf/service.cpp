@@ -3,7 +3,7 @@
 // model.
 #include "plugins/common/parser_process/service.hpp"
 
-#include "plugins/common/builder_calls/record.hpp"
+#include "plugins/common/parser_process/builder_calls/record.hpp"
 #include "read.hpp"
 
 namespace muro::mjcf {

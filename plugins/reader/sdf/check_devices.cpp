@@ -2,8 +2,8 @@
 // <sensor> of links and joints, <plugin> of models: libsdformat does not see them, and who builds a robot places them.
 #include "assembly.hpp"
 #include "checks.hpp"
-#include "plugins/common/sdf_devices/plugin.hpp"
-#include "plugins/common/sdf_devices/sensor.hpp"
+#include "plugins/reader/common/sdf_devices/plugin.hpp"
+#include "plugins/reader/common/sdf_devices/sensor.hpp"
 
 namespace muro::sdf {
 

@@ -2,8 +2,8 @@
 // Reads robots and worlds from SDFormat files (http://sdformat.org): service.cpp does it, in the parser process.
 #include "muro/ext/package_folders.hpp"
 #include "muro/plugin.hpp"
-#include "plugins/common/builder_calls/replay.hpp"
 #include "plugins/common/parser_process/ask.hpp"
+#include "plugins/common/parser_process/builder_calls/replay.hpp"
 
 namespace {
 

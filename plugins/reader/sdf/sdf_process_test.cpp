@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The way of a model through the parser process: what is recorded there and made here is what the reader does.
-#include "plugins/common/builder_calls/record.hpp"
-#include "plugins/common/builder_calls/replay.hpp"
+#include "plugins/common/parser_process/builder_calls/record.hpp"
+#include "plugins/common/parser_process/builder_calls/replay.hpp"
 #include "reading_testing.hpp"
 
 namespace muro::sdf {

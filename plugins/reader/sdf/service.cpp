@@ -3,7 +3,7 @@
 // and how many packages the user has named, each with its folder.
 #include "plugins/common/parser_process/service.hpp"
 
-#include "plugins/common/builder_calls/record.hpp"
+#include "plugins/common/parser_process/builder_calls/record.hpp"
 #include "read.hpp"
 
 namespace muro::sdf {

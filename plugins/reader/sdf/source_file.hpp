@@ -13,7 +13,7 @@
 #include "plugins/common/model_file/document.hpp"
 #include "plugins/common/model_file/mesh_path.hpp"
 #include "plugins/common/model_file/problems.hpp"
-#include "plugins/common/sdf_devices/subsystem.hpp"
+#include "plugins/reader/common/sdf_devices/subsystem.hpp"
 
 namespace muro::sdf {
 

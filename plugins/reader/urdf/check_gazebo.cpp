@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "model.hpp"
-#include "plugins/common/sdf_devices/plugin.hpp"
-#include "plugins/common/sdf_devices/sensor.hpp"
+#include "plugins/reader/common/sdf_devices/plugin.hpp"
+#include "plugins/reader/common/sdf_devices/sensor.hpp"
 
 namespace muro::urdf {
 

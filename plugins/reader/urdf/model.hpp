@@ -14,7 +14,7 @@
 #include "muro/toolkit/limits.hpp"
 #include "plugins/common/model_file/joint_spring.hpp"
 #include "plugins/common/model_file/mesh_path.hpp"
-#include "plugins/common/sdf_devices/subsystem.hpp"
+#include "plugins/reader/common/sdf_devices/subsystem.hpp"
 
 namespace muro::urdf {
 

@@ -8,9 +8,9 @@
 #include "muro/plugin.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
-#include "plugins/common/csv_file/csv_file.hpp"
 #include "plugins/common/text/glob.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/recorder/common/csv_file/csv_file.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include "means.hpp"
 #include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
-#include "plugins/common/csv_file/csv_file.hpp"
-#include "plugins/common/recorded_property/recorded_property.hpp"
+#include "plugins/recorder/common/csv_file/csv_file.hpp"
+#include "plugins/recorder/common/recorded_property/recorded_property.hpp"
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "plugins/common/recorded_property/recorded_property.hpp"
-#include "plugins/common/scalar/with_scalar.hpp"
+#include "plugins/common/text/with_scalar.hpp"
+#include "plugins/recorder/common/recorded_property/recorded_property.hpp"
 
 namespace muro {
 

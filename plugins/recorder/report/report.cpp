@@ -2,8 +2,8 @@
 // Puts what properties are at the end of a run into its report; see README.md.
 #include "muro/ext/report_numbers.hpp"
 #include "muro/plugin.hpp"
-#include "plugins/common/recorded_property/recorded_property.hpp"
-#include "plugins/common/scalar/with_scalar.hpp"
+#include "plugins/common/text/with_scalar.hpp"
+#include "plugins/recorder/common/recorded_property/recorded_property.hpp"
 
 namespace {
 

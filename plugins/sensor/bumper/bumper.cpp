@@ -5,10 +5,10 @@
 
 #include "muro/plugin.hpp"
 #include "muro/toolkit/per_robot.hpp"
-#include "plugins/common/internal_sensor/link_contacts.hpp"
-#include "plugins/common/internal_sensor/mounted.hpp"
-#include "plugins/common/internal_sensor/property_uses.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/sensor/common/internal_sensor/link_contacts.hpp"
+#include "plugins/sensor/common/internal_sensor/mounted.hpp"
+#include "plugins/sensor/common/internal_sensor/property_uses.hpp"
 
 namespace {
 

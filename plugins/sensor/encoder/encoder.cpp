@@ -7,9 +7,9 @@
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/per_robot.hpp"
-#include "plugins/common/internal_sensor/encoder_joint.hpp"
-#include "plugins/common/internal_sensor/mounted.hpp"
+#include "muro/vocabulary/sensor.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/sensor/common/internal_sensor/mounted.hpp"
 
 namespace {
 
@@ -111,7 +111,7 @@ class Encoder final : public PerRobotAlgorithm<Range> {
     const auto shifts = [&](std::uint32_t i) { return all[i].joint == JointKind::prismatic; };
     const bool first = shifts(links.front());
     if (std::all_of(links.begin(), links.end(), [&](std::uint32_t i) { return shifts(i) == first; }))
-      c.set(item.object, internal_sensor::key_encoder_joint, all[links.front()].joint_object);
+      c.set(item.object, keys::encoder_joint, all[links.front()].joint_object);
   }
 
   /// The steps of an encoder on a joint.

@@ -3,8 +3,8 @@
 
 #include "muro/connector.hpp"
 #include "muro/vocabulary.hpp"
-#include "plugins/common/geodetic/geodetic.hpp"
-#include "plugins/common/geodetic/keys.hpp"
+#include "plugins/sensor/common/geodetic/geodetic.hpp"
+#include "plugins/sensor/common/geodetic/keys.hpp"
 #include "published.hpp"
 
 namespace muro {

@@ -8,7 +8,7 @@
 
 #include "error_chain.hpp"
 #include "muro/handles.hpp"
-#include "plugins/common/neighbours/neighbour.hpp"
+#include "plugins/sensor/common/neighbours/neighbour.hpp"
 
 namespace muro {
 

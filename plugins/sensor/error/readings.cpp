@@ -2,8 +2,8 @@
 #include "readings.hpp"
 
 #include "muro/algorithm.hpp"
-#include "plugins/common/neighbours/neighbour.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/sensor/common/neighbours/neighbour.hpp"
 
 namespace muro {
 

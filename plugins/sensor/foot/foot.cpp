@@ -7,10 +7,10 @@
 #include "muro/toolkit/bounds.hpp"
 #include "muro/toolkit/number_text.hpp"
 #include "muro/toolkit/per_robot.hpp"
-#include "plugins/common/internal_sensor/link_load.hpp"
-#include "plugins/common/internal_sensor/mounted.hpp"
-#include "plugins/common/internal_sensor/property_uses.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/sensor/common/internal_sensor/link_load.hpp"
+#include "plugins/sensor/common/internal_sensor/mounted.hpp"
+#include "plugins/sensor/common/internal_sensor/property_uses.hpp"
 
 namespace {
 

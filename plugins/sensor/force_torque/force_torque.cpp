@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A force-torque sensor in a joint or in a fixed connection of two links.
 #include "muro/plugin.hpp"
-#include "plugins/common/internal_sensor/link_load.hpp"
-#include "plugins/common/internal_sensor/mounted.hpp"
-#include "plugins/common/internal_sensor/property_uses.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/sensor/common/internal_sensor/link_load.hpp"
+#include "plugins/sensor/common/internal_sensor/mounted.hpp"
+#include "plugins/sensor/common/internal_sensor/property_uses.hpp"
 #include "subtree.hpp"
 
 namespace {

@@ -6,8 +6,8 @@
 
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/per_robot.hpp"
-#include "plugins/common/internal_sensor/link_load.hpp"
-#include "plugins/common/link_acceleration/link_motion.hpp"
+#include "plugins/common/link_motion/link_motion.hpp"
+#include "plugins/sensor/common/internal_sensor/link_load.hpp"
 
 namespace muro {
 

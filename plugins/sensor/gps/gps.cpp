@@ -3,10 +3,10 @@
 #include "muro/plugin.hpp"
 #include "muro/toolkit/number_text.hpp"
 #include "muro/toolkit/per_robot.hpp"
-#include "plugins/common/geodetic/geodetic.hpp"
-#include "plugins/common/geodetic/keys.hpp"
-#include "plugins/common/internal_sensor/mounted.hpp"
-#include "plugins/common/internal_sensor/property_uses.hpp"
+#include "plugins/sensor/common/geodetic/geodetic.hpp"
+#include "plugins/sensor/common/geodetic/keys.hpp"
+#include "plugins/sensor/common/internal_sensor/mounted.hpp"
+#include "plugins/sensor/common/internal_sensor/property_uses.hpp"
 
 namespace {
 

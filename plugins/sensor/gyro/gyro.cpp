@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A gyroscope: the angular velocity of the device, in its own axes.
 #include "muro/plugin.hpp"
-#include "plugins/common/internal_sensor/inertial.hpp"
+#include "plugins/sensor/common/internal_sensor/inertial.hpp"
 
 namespace {
 

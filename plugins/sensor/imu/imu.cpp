@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // An inertial measurement unit with an estimate of its orientation, here the true one.
 #include "muro/plugin.hpp"
-#include "plugins/common/internal_sensor/inertial.hpp"
+#include "plugins/sensor/common/internal_sensor/inertial.hpp"
 
 namespace {
 

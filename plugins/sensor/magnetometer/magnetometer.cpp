@@ -2,8 +2,8 @@
 // A magnetometer: the field of the earth in the axes of the device.
 #include "muro/plugin.hpp"
 #include "muro/toolkit/per_robot.hpp"
-#include "plugins/common/internal_sensor/mounted.hpp"
-#include "plugins/common/internal_sensor/property_uses.hpp"
+#include "plugins/sensor/common/internal_sensor/mounted.hpp"
+#include "plugins/sensor/common/internal_sensor/property_uses.hpp"
 
 namespace {
 

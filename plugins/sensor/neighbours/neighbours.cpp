@@ -11,10 +11,10 @@
 #include "muro/toolkit/elementary.hpp"
 #include "muro/toolkit/mounting.hpp"
 #include "plugins/common/line_of_sight/line_of_sight.hpp"
-#include "plugins/common/neighbours/neighbour.hpp"
-#include "plugins/common/spatial_hash/spatial_hash.hpp"
+#include "plugins/common/line_of_sight/spatial_hash.hpp"
 #include "plugins/common/text/glob.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/sensor/common/neighbours/neighbour.hpp"
 
 namespace muro::neighbours {
 namespace {

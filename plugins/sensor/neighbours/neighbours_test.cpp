@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "muro/toolkit/rotations.hpp"
-#include "plugins/common/neighbours/neighbour.hpp"
+#include "plugins/sensor/common/neighbours/neighbour.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/complaint.hpp"

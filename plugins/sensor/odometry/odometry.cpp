@@ -9,11 +9,11 @@
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/toolkit/number_text.hpp"
 #include "muro/toolkit/per_robot.hpp"
-#include "plugins/common/internal_sensor/mounted.hpp"
-#include "plugins/common/link_acceleration/link_motion.hpp"
+#include "plugins/common/link_motion/link_motion.hpp"
 #include "plugins/common/wheels/omni_jacobian.hpp"
 #include "plugins/common/wheels/planar_motion.hpp"
 #include "plugins/common/wheels/side_wheels.hpp"
+#include "plugins/sensor/common/internal_sensor/mounted.hpp"
 
 namespace {
 

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "muro/plugin.hpp"
-#include "plugins/common/internal_sensor/mounted.hpp"
-#include "plugins/common/internal_sensor/property_uses.hpp"
-#include "plugins/common/internal_sensor/scene_frame.hpp"
+#include "plugins/sensor/common/internal_sensor/mounted.hpp"
+#include "plugins/sensor/common/internal_sensor/property_uses.hpp"
+#include "plugins/sensor/common/internal_sensor/scene_frame.hpp"
 
 namespace {
 

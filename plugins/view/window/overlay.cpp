@@ -5,7 +5,7 @@
 
 #include "muro/toolkit/elementary.hpp"
 #include "muro/vocabulary.hpp"
-#include "plugins/common/scanner/keys.hpp"
+#include "muro/vocabulary/laser.hpp"
 
 namespace muro::view {
 
@@ -52,8 +52,8 @@ void Overlay::add_scan(Inspection& simulation, ObjectId sensor, render::DebugLin
   if (columns == 0 || (columns > 1 && increment == 0)) return;  // a list of directions
   const Pose device = value_of(properties, keys::pose, Pose{}) * value_of(properties, keys::sensor_origin, Pose{});
   const double first = value_of(properties, keys::laser_min_angle, 0.0);
-  const double low = value_of(properties, scanner::key_min_elevation, 0.0);
-  const double step = value_of(properties, scanner::key_elevation_increment, 0.0);
+  const double low = value_of(properties, keys::laser_min_elevation, 0.0);
+  const double step = value_of(properties, keys::laser_elevation_increment, 0.0);
   const double max_range = value_of(properties, keys::laser_max_range, 1e9);
   constexpr std::size_t max_points = 4000, max_lines = 90;
   const std::size_t point_stride = 1 + ranges.size() / max_points;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "muro/toolkit/limits.hpp"
-#include "plugins/common/scalar/with_scalar.hpp"
+#include "plugins/common/text/with_scalar.hpp"
 
 namespace muro::view {
 

@@ -2,7 +2,7 @@
 // radio.log_distance: powers, ranges, losses, times and queues of messages between robots.
 #include <random>
 
-#include "plugins/common/radio/keys.hpp"
+#include "muro/vocabulary/radio.hpp"
 #include "tests/conformance/known_answers/answer.hpp"
 #include "tests/support/bodies.hpp"
 
@@ -36,13 +36,13 @@ struct Radios : test::Scene {
   }
   void send(std::size_t i, std::uint32_t size) {
     const ObjectId o = radios[i].object;
-    world().value(o, radio::key_send_size) = size;
-    world().value(o, radio::key_send_receiver) = radio::broadcast;
-    ++world().value(o, radio::key_send_number);
+    world().value(o, keys::radio_send_size) = size;
+    world().value(o, keys::radio_send_receiver) = radio::broadcast;
+    ++world().value(o, keys::radio_send_number);
     run_for(0.001);
   }
-  const Counters& counters(std::size_t i) { return world().value(radios[i].object, radio::key_counters); }
-  const Header& last(std::size_t i) { return world().value(radios[i].object, radio::key_last); }
+  const Counters& counters(std::size_t i) { return world().value(radios[i].object, keys::radio_counters); }
+  const Header& last(std::size_t i) { return world().value(radios[i].object, keys::radio_last); }
 
   std::vector<Item> radios;
 };

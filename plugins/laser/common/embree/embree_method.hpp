@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <tuple>
+
+#include "plugins/common/heightmap/heightmap_file.hpp"
+#include "plugins/laser/common/scanner/method.hpp"
+#include "user_geometry.hpp"
+
+namespace muro::embree {
+
+/// Distances by Embree: exact to shapes with a closed form, in single precision to the triangles of meshes and
+/// heightmaps.
+class Embree final : public scanner::Method {
+ public:
+  Embree();
+  ~Embree() override;
+
+  void connect(Connector& c) override;
+  void prepare(std::span<const scanner::RaySet> sets) override;
+  void start() override;
+  void update() override;
+  void cast(std::size_t set, const scanner::Viewpoint& from, std::span<double> ranges,
+            std::span<ObjectId> hits) override;
+  bool is_parallel() const override { return true; }
+  bool is_cheap_for_few_rays() const override { return true; }
+
+ private:
+  struct MeshInstance {
+    BodyShape shape;
+    RTCGeometry geometry = nullptr;
+  };
+
+  /// What Embree tells when a call fails. [any thread]
+  static void keep_error(void* self, RTCError code, const char* text) noexcept;
+  /// Throws Error when a call of Embree has failed.
+  void check() const;
+  void add(Connector& c, const BodyShape& shape);
+  /// Of a mesh or a heightmap. Null where it has been refused: see mesh::refuse_collision_mesh.
+  RTCScene mesh(Connector& c, const BodyShape& s);
+  RTCScene build(const mesh::Mesh& mesh);
+  /// The heightmap that has a point of the world (m) in the solid below it, or no object.
+  ObjectId ground_around(const Vec3& point) const;
+  void place(const MeshInstance& instance) const;
+  static void skip_ignored_robot(const RTCFilterFunctionNArguments* a);
+  /// Shapes and meshes, sixteen rays at a time.
+  void intersect_scene(RayQuery& query, std::uint32_t count, double max_range) const;
+  void intersect_planes(const RayQuery& query, std::uint32_t count) const;
+
+  std::atomic<bool> has_failed_ = false;
+  mutable std::mutex mutex_;
+  std::string error_;  ///< the first one
+  RTCDevice device_ = nullptr;
+  RTCScene scene_ = nullptr;
+  std::map<std::tuple<std::string, double, double, double>, RTCScene> meshes_;  ///< by file and scale
+  std::vector<BodyShape> scenery_shapes_, robot_shapes_, planes_;
+  std::vector<MeshInstance> mesh_instances_;
+  heightmap::Store heightmaps_;
+  std::vector<BodyShape> heightmap_shapes_;
+  std::vector<Heightmap> heightmap_surfaces_;  ///< of these, in the frames of their shapes
+  UserGeometry scenery_, robots_;
+  std::vector<std::int32_t> robot_of_;  ///< by geometry of the scene
+  std::vector<ObjectId> object_of_;     ///< likewise
+  std::vector<scanner::RaySet> sets_;
+  bool is_built_ = false;
+};
+
+}  // namespace muro::embree

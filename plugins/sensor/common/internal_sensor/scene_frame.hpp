@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// The frame of anything in the scene, as sensors name it.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "plugins/common/link_motion/link_motion.hpp"
+#include "plugins/common/text/quote.hpp"
+
+namespace muro::internal_sensor {
+
+/// How the frame of an object moves: of a part of a robot, or of scenery, which stands. Without one: the world.
+class SceneFrame {
+ public:
+  SceneFrame() = default;
+  SceneFrame(link_acceleration::LinkMotion link)  // NOLINT(google-explicit-constructor): it is one
+      : link_(std::move(link)) {}
+  /// Of what `name` stands for: a part of the robot of `item`, a robot (its base), `robot/part`, or scenery. Throws
+  /// Error where there is nothing of this name that has a pose. [setup]
+  static SceneFrame named(Connector& c, const Item& item, std::string_view name) {
+    using link_acceleration::LinkMotion, link_acceleration::Order;
+    for (const RobotView* robot : c.robots())
+      if (robot->name == name) return LinkMotion(c, *robot, 0, Pose{}, Order::twist);
+    ObjectId object = c.find_object(std::string(item.robot->name) + "/" + std::string(name));
+    if (object == no_object) object = c.find_object(name);
+    const std::int32_t number = object == no_object ? -1 : c.robot_of(object);
+    if (number >= 0) {
+      const RobotView& robot = *c.robots()[std::size_t(number)];
+      for (std::uint32_t i = 0; i < robot.links.size(); ++i)
+        if (robot.links[i].object == object) return LinkMotion(c, robot, i, Pose{}, Order::twist);
+    }
+    const auto standing = object == no_object ? std::nullopt : c.constant(object, keys::pose);
+    if (!standing)
+      throw Error("nothing in the scene is named " + quote(name) +
+                  " and has a pose; name a part of the own robot, a robot, `robot/part`, or scenery "
+                  "(`muro describe` lists them)");
+    SceneFrame frame;
+    frame.standing_ = *standing;
+    return frame;
+  }
+
+  /// [step]
+  link_acceleration::FrameMotion now() const {
+    return link_ ? link_.now() : link_acceleration::FrameMotion{standing_, {}, {}};
+  }
+
+ private:
+  link_acceleration::LinkMotion link_;
+  Pose standing_;  ///< of what stands
+};
+
+}  // namespace muro::internal_sensor
