@@ -12,10 +12,12 @@ failures=0
 # A tree without fault: every kind of arrow that is allowed.
 fresh_tree() {
   find "$tree" -mindepth 1 -delete
-  mkdir -p sdk/muro sdk/c core host plugins/motion/{point,bullet} plugins/common/render tests/core
+  mkdir -p sdk/muro sdk/c core host plugins/motion/{point,bullet,common/watch} plugins/drive/servo plugins/common/render tests/core
+  touch plugins/motion/common/watch/watch.hpp
   touch sdk/muro/key.hpp sdk/c/muro_controller.h core/world.hpp plugins/motion/point/kernel.hpp plugins/common/render/gl.hpp
   echo '#include "core/world.hpp" // a comment; with <brackets> and "quotes"' >host/run.cpp
-  printf '%s\n' '#include "muro/key.hpp"' '#include "kernel.hpp"' '#include <Eigen/Core>' '#include <span>' \
+  printf '%s\n' '#include "muro/key.hpp"' '#include "kernel.hpp"' '#include "plugins/motion/common/watch/watch.hpp"' \
+    '#include <Eigen/Core>' '#include <span>' \
     'constexpr D d{.id = "motion.point"};' >plugins/motion/point/point.cpp
   printf '#include "core/world.hpp"\n#include <gtest/gtest.h>\n' >plugins/motion/point/point_test.cpp
   printf '#include "plugins/common/render/gl.hpp"\n#  include <btBulletDynamicsCommon.h>\n' >plugins/motion/bullet/world.cpp
@@ -41,16 +43,22 @@ fresh_tree
 expect ''
 
 echo '#include "core/world.hpp"' >plugins/motion/point/kernel.hpp
-expect 'plugins/motion/point/kernel.hpp:1: includes "core/world.hpp" (core/world.hpp); this file may include: std plugins/motion/point sdk/muro eigen posix plugins/common'
+expect 'plugins/motion/point/kernel.hpp:1: includes "core/world.hpp" (core/world.hpp); this file may include: std plugins/motion/point sdk/muro eigen posix plugins/common plugins/motion/common'
 
 echo '#include "../../../core/world.hpp"' >plugins/motion/bullet/world.cpp
-expect 'plugins/motion/bullet/world.cpp:1: includes "../../../core/world.hpp" (core/world.hpp); this file may include: std plugins/motion/bullet sdk/muro eigen posix plugins/common bullet'
+expect 'plugins/motion/bullet/world.cpp:1: includes "../../../core/world.hpp" (core/world.hpp); this file may include: std plugins/motion/bullet sdk/muro eigen posix plugins/common plugins/motion/common bullet'
 
 printf '\n#include "plugins/motion/point/kernel.hpp"\n' >plugins/motion/bullet/world.cpp
-expect 'plugins/motion/bullet/world.cpp:2: includes "plugins/motion/point/kernel.hpp" (plugins/motion/point/kernel.hpp); this file may include: std plugins/motion/bullet sdk/muro eigen posix plugins/common bullet'
+expect 'plugins/motion/bullet/world.cpp:2: includes "plugins/motion/point/kernel.hpp" (plugins/motion/point/kernel.hpp); this file may include: std plugins/motion/bullet sdk/muro eigen posix plugins/common plugins/motion/common bullet'
+
+echo '#include "plugins/motion/common/watch/watch.hpp"' >plugins/drive/servo/servo.cpp
+expect 'plugins/drive/servo/servo.cpp:1: includes "plugins/motion/common/watch/watch.hpp" (plugins/motion/common/watch/watch.hpp); this file may include: std plugins/drive/servo sdk/muro eigen posix plugins/common'
+
+echo '#include "plugins/motion/common/watch/watch.hpp"' >plugins/common/render/gl.hpp
+expect 'plugins/common/render/gl.hpp:1: includes "plugins/motion/common/watch/watch.hpp" (plugins/motion/common/watch/watch.hpp); this file may include: std plugins/common/render sdk/muro eigen posix plugins/common gl'
 
 echo '#include <btBulletDynamicsCommon.h>' >plugins/motion/point/kernel.hpp
-expect 'plugins/motion/point/kernel.hpp:1: includes "btBulletDynamicsCommon.h" (bullet); this file may include: std plugins/motion/point sdk/muro eigen posix plugins/common'
+expect 'plugins/motion/point/kernel.hpp:1: includes "btBulletDynamicsCommon.h" (bullet); this file may include: std plugins/motion/point sdk/muro eigen posix plugins/common plugins/motion/common'
 
 echo '#include "core/world.hpp"' >sdk/muro/key.hpp
 expect 'sdk/muro/key.hpp:1: includes "core/world.hpp" (core/world.hpp); this file may include: std sdk/muro eigen'
