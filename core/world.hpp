@@ -79,7 +79,7 @@ class World {
     return {static_cast<T*>(found.data), found.size};
   }
 
-  /// The same, or null.
+  /// The present value of a single property; null when there is none of this type.
   template <class T>
   T* find_value(ObjectId object, const Key<T>& key) const {
     return static_cast<T*>(find_place(object, key));
@@ -96,6 +96,7 @@ class World {
   const T* find_constant(ObjectId object, const Key<T>& key) const {
     return static_cast<const T*>(store_.constant(object, key).data);
   }
+  /// A constant that is a single value, or `default_value`.
   template <class T>
   T constant(ObjectId object, const Key<T>& key, const T& default_value) const {
     const T* const found = find_constant(object, key);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The properties of sdk/muro/vocabulary.hpp as a table.
+// The properties of sdk/muro/vocabulary/ as a table.
 #pragma once
 
 #include <span>

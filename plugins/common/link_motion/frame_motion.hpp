@@ -5,7 +5,7 @@
 #include "muro/robot.hpp"
 #include "muro/toolkit/rotations.hpp"
 
-namespace muro::link_acceleration {
+namespace muro::link_motion {
 
 /// How a frame moves in the world: all in world axes, at the frame's origin.
 struct FrameMotion {
@@ -49,4 +49,4 @@ struct FrameMotion {
   }
 };
 
-}  // namespace muro::link_acceleration
+}  // namespace muro::link_motion

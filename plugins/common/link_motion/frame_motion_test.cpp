@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace muro::link_acceleration {
+namespace muro::link_motion {
 namespace {
 
 /// A base on a curve that turns about a tilted axis, a joint that turns about y, one behind it that shifts along x, and
@@ -38,4 +38,4 @@ TEST(FrameMotion, HasTheAccelerationOfItsVelocity) {
 }
 
 }  // namespace
-}  // namespace muro::link_acceleration
+}  // namespace muro::link_motion

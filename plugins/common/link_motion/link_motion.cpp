@@ -6,7 +6,7 @@
 
 #include "muro/toolkit/mass_properties.hpp"
 
-namespace muro::link_acceleration {
+namespace muro::link_motion {
 
 JointMotion::JointMotion(Connector& c, const RobotView& robot, std::uint32_t link, double start, Order order) {
   const Link& own = robot.links[link];
@@ -61,4 +61,4 @@ void LinkMotion::check(const Connector& c) const {
   for (const Joint& j : joints_) j.motion.check_acceleration(c);
 }
 
-}  // namespace muro::link_acceleration
+}  // namespace muro::link_motion

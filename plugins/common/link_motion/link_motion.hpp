@@ -8,7 +8,7 @@
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
 
-namespace muro::link_acceleration {
+namespace muro::link_motion {
 
 /// What is asked for; each includes those before it.
 enum class Order : std::uint8_t { pose, twist, acceleration };
@@ -70,4 +70,4 @@ class LinkMotion {
   bool is_at_origin_ = false;
 };
 
-}  // namespace muro::link_acceleration
+}  // namespace muro::link_motion

@@ -10,7 +10,6 @@
 #include "friction_anchor.hpp"
 #include "muro/algorithm.hpp"
 #include "muro/vocabulary.hpp"
-#include "muro/vocabulary/contact.hpp"
 #include "patch.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/contact_geometry/disc_contact.hpp"

@@ -72,9 +72,9 @@ struct Leg {
 
   /// How the foot would move if the base stood still, in its frame. `acceleration(i)`: of the joint, rad/s^2 or m/s^2.
   template <class Position, class Velocity, class Acceleration>
-  link_acceleration::FrameMotion relative(const Position& position, const Velocity& velocity,
-                                          const Acceleration& acceleration) const {
-    link_acceleration::FrameMotion m{};
+  link_motion::FrameMotion relative(const Position& position, const Velocity& velocity,
+                                    const Acceleration& acceleration) const {
+    link_motion::FrameMotion m{};
     for (const LegJoint& j : joints)
       m = m.at(j.origin).behind(j.kind, j.axis, position(j.number), velocity(j.number), acceleration(j.number));
     return m.at(end);

@@ -14,7 +14,7 @@
 namespace {
 
 using namespace muro;
-using link_acceleration::JointMotion;
+using link_motion::JointMotion;
 
 constexpr Parameter parameters[] = {
     texts("joints",
@@ -98,7 +98,7 @@ class Encoder final : public PerRobotAlgorithm<Range> {
       const std::uint32_t link = links[k];
       Channel channel =
           steps_of(c.parameters(), item.robot->links[link], c.object_name(item.robot->links[link].joint_object));
-      channel.joint = JointMotion(c, *item.robot, link, start[link], link_acceleration::Order::twist);
+      channel.joint = JointMotion(c, *item.robot, link, start[link], link_motion::Order::twist);
       channel.position = position + k, channel.velocity = velocity + k, channel.count = count + k;
       channels.push_back(channel);
     }

@@ -49,7 +49,7 @@ constexpr Description description{
 
 /// What is kept of a foot.
 struct Foot {
-  link_acceleration::LinkMotion link;
+  link_motion::LinkMotion link;
   Pose device;  ///< in the link's frame
   Aabb sole;    ///< in the device's frame; z is the plane of the cells
   LinkLoad load;
@@ -90,7 +90,7 @@ class FootSensor final : public PerRobotAlgorithm<Foot> {
     Foot foot;
     foot.device = mounting_of(c.parameters());
     c.set(item.object, keys::sensor_origin, foot.device);
-    foot.link = {c, view, link, Pose{}, link_acceleration::Order::pose};
+    foot.link = {c, view, link, Pose{}, link_motion::Order::pose};
     foot.load = {c, view, link, Load::contacts};
     if (foot.load.reads_other_robots()) set_reads_other_robots();
     if (!is_moved_by_forces(c, view) || !foot.load.knows_contacts())

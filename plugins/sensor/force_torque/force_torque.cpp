@@ -11,7 +11,7 @@ namespace {
 
 using namespace muro;
 using namespace muro::internal_sensor;
-using link_acceleration::FrameMotion, link_acceleration::LinkMotion, link_acceleration::Order;
+using link_motion::FrameMotion, link_motion::LinkMotion, link_motion::Order;
 
 constexpr PropertyUse reads[] = {
     reads_pose,

@@ -30,7 +30,7 @@ class Subtree {
       part.origin = is_first ? Pose{} : l.origin;
       part.kind = is_first ? JointKind::fixed : l.joint;
       part.axis = l.axis;
-      if (part.kind != JointKind::fixed) part.joint = {c, robot, i, start[i], link_acceleration::Order::acceleration};
+      if (part.kind != JointKind::fixed) part.joint = {c, robot, i, start[i], link_motion::Order::acceleration};
       part.inertia = inertias[i];
       part.tensor = inertias[i].tensor();
       part.load = {c, robot, i, internal_sensor::Load::all};
@@ -56,11 +56,11 @@ class Subtree {
 
   /// What must act on it through the connection, about the point `about` (m), so that it moves as it does: world axes.
   /// `first`: how the frame of its first link moves; `gravity`: m/s^2. [step]
-  Wrench holding_wrench(const link_acceleration::FrameMotion& first, const Vec3& about, const Vec3& gravity) {
+  Wrench holding_wrench(const link_motion::FrameMotion& first, const Vec3& about, const Vec3& gravity) {
     Wrench sum;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const Part& p = parts_[i];
-      link_acceleration::FrameMotion& m = motions_[i];
+      link_motion::FrameMotion& m = motions_[i];
       m = p.parent < 0 ? first : motions_[std::size_t(p.parent)].at(p.origin);
       if (p.kind != JointKind::fixed)
         m = m.behind(p.kind, p.axis, p.joint.position(), p.joint.velocity(), p.joint.acceleration());
@@ -78,15 +78,15 @@ class Subtree {
     Pose origin;               ///< in the parent's frame, with the joint at 0
     JointKind kind = JointKind::fixed;
     Vec3 axis = Vec3::UnitX();
-    link_acceleration::JointMotion joint;
+    link_motion::JointMotion joint;
     Inertia inertia;
     Mat3 tensor = Mat3::Zero();
     internal_sensor::LinkLoad load;
   };
 
   /// m (a_c - g) at the centre of mass, and I alpha + w x I w.
-  static void add_inertia(const Part& p, const link_acceleration::FrameMotion& m, const Vec3& about,
-                          const Vec3& gravity, Wrench& sum) {
+  static void add_inertia(const Part& p, const link_motion::FrameMotion& m, const Vec3& about, const Vec3& gravity,
+                          Wrench& sum) {
     const Quat& axes = m.pose.orientation;
     const Vec3 com = axes * p.inertia.com, &w = m.twist.angular, &alpha = m.acceleration.angular;
     const Vec3 a = m.acceleration.linear + alpha.cross(com) + w.cross(w.cross(com));
@@ -96,7 +96,7 @@ class Subtree {
   }
 
   std::vector<Part> parts_;
-  std::vector<link_acceleration::FrameMotion> motions_;  ///< scratch
+  std::vector<link_motion::FrameMotion> motions_;  ///< scratch
 };
 
 }  // namespace muro

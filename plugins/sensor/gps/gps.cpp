@@ -44,7 +44,7 @@ constexpr Description description{
 
 /// What is kept of a device.
 struct Receiver {
-  link_acceleration::LinkMotion antenna;
+  link_motion::LinkMotion antenna;
   Out<double> latitude, longitude, altitude;
   Out<Vec3> position, velocity;
 };
@@ -53,7 +53,7 @@ class Gps final : public PerRobotAlgorithm<Receiver> {
  public:
   void step(const Step&, Range range) override {
     for (const Receiver& r : robots(range)) {
-      const link_acceleration::FrameMotion m = r.antenna.now();
+      const link_motion::FrameMotion m = r.antenna.now();
       *r.position = to_east_ * m.pose.position;
       *r.velocity = to_east_ * m.twist.linear;
       const GeodeticPlace place = plane_.place_of(*r.position);
@@ -79,7 +79,7 @@ class Gps final : public PerRobotAlgorithm<Receiver> {
     const Pose antenna{{at[0], at[1], at[2]}, Quat::Identity()};
     c.set(item.object, keys::sensor_origin, antenna);
     c.set(item.object, geodetic::key_reference, reference_);
-    return {{c, *item.robot, carrying_link(c, item), antenna, link_acceleration::Order::twist},
+    return {{c, *item.robot, carrying_link(c, item), antenna, link_motion::Order::twist},
             c.variable(item.object, keys::latitude, 0.0),
             c.variable(item.object, keys::longitude, 0.0),
             c.variable(item.object, keys::altitude, 0.0),

@@ -32,7 +32,7 @@ constexpr Description description{
 
 /// What is kept of a device.
 struct Device {
-  link_acceleration::LinkMotion motion;
+  link_motion::LinkMotion motion;
   Out<Vec3> magnetic_field;
 };
 
@@ -45,7 +45,7 @@ class Magnetometer final : public PerRobotAlgorithm<Device> {
  private:
   void read_parameters(const Parameters& p) override { field_ = Vec3(p.reals("field").data()); }
   Device connect_robot(Connector& c, const Item& item) override {
-    return {device_motion(c, item, link_acceleration::Order::pose),
+    return {device_motion(c, item, link_motion::Order::pose),
             c.variable(item.object, keys::magnetic_field, Vec3(0, 0, 0))};
   }
 

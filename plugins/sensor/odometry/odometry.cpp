@@ -62,7 +62,7 @@ constexpr Description description{
 
 /// A wheel, and how far the base moves by what is known of it.
 struct CountedWheel {
-  link_acceleration::JointMotion joint;
+  link_motion::JointMotion joint;
   PlanarTwist column;  ///< m, m and rad for each rad of the joint
   double start = 0;    ///< rad
 };
@@ -120,7 +120,7 @@ class Odometry final : public PerRobotAlgorithm<Vehicle> {
   static CountedWheel counted_wheel(Connector& c, const RobotView& robot, std::uint32_t link,
                                     const PlanarTwist& column) {
     const double start = initial_joint_positions(c, robot)[link];
-    return {{c, robot, link, start, link_acceleration::Order::pose}, column, start};
+    return {{c, robot, link, start, link_motion::Order::pose}, column, start};
   }
 
   /// Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots, 2nd edition, section 5.2.4.

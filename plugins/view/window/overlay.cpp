@@ -5,7 +5,6 @@
 
 #include "muro/toolkit/elementary.hpp"
 #include "muro/vocabulary.hpp"
-#include "muro/vocabulary/laser.hpp"
 
 namespace muro::view {
 

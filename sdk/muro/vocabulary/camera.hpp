@@ -3,6 +3,7 @@
 #pragma once
 
 #include "muro/key.hpp"
+#include "muro/object.hpp"
 
 namespace muro::keys {
 

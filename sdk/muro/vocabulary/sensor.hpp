@@ -4,6 +4,7 @@
 
 #include "muro/geometry.hpp"
 #include "muro/key.hpp"
+#include "muro/object.hpp"
 
 namespace muro::keys {
 

@@ -8,7 +8,6 @@
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/did_you_mean.hpp"
 #include "muro/vocabulary.hpp"
-#include "muro/vocabulary/sensor.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro {

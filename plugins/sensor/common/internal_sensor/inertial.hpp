@@ -15,7 +15,7 @@ struct Measures {
 
 /// What is kept of a device; outputs that it has not are unset.
 struct InertialDevice {
-  link_acceleration::LinkMotion motion;
+  link_motion::LinkMotion motion;
   Out<Vec3> angular_velocity, linear_acceleration;
   Out<Quat> orientation;
 };
@@ -31,7 +31,7 @@ class InertialSensor : public PerRobotAlgorithm<InertialDevice> {
   /// f = R^T (a - g), w = R^T w, with the axes R of the device.
   void step(const Step&, Range range) override {
     for (const InertialDevice& d : robots(range)) {
-      const link_acceleration::FrameMotion m = d.motion.now();
+      const link_motion::FrameMotion m = d.motion.now();
       const Quat to_device = m.pose.orientation.conjugate();
       if (d.angular_velocity) *d.angular_velocity = to_device * m.twist.angular;
       if (d.linear_acceleration) *d.linear_acceleration = to_device * Vec3(m.acceleration.linear - gravity_);
@@ -41,7 +41,7 @@ class InertialSensor : public PerRobotAlgorithm<InertialDevice> {
 
  private:
   InertialDevice connect_robot(Connector& c, const Item& item) override {
-    using link_acceleration::Order;
+    using link_motion::Order;
     gravity_ = gravity_of(c);
     InertialDevice d;
     d.motion = device_motion(c, item, measures_.linear_acceleration ? Order::acceleration : Order::twist);

@@ -87,7 +87,7 @@ std::uint32_t carrying_joint(const Connector& c, const Item& item) {
               "; name a joint with `on`; those of the robot are: " + listed(joint_names(c, *item.robot)));
 }
 
-link_acceleration::LinkMotion device_motion(Connector& c, const Item& item, link_acceleration::Order order) {
+link_motion::LinkMotion device_motion(Connector& c, const Item& item, link_motion::Order order) {
   const Pose mounting = mounting_of(c.parameters());
   c.set(item.object, keys::sensor_origin, mounting);
   return {c, *item.robot, carrying_link(c, item), mounting, order};

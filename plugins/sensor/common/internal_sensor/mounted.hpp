@@ -24,7 +24,7 @@ std::uint32_t carrying_joint(const Connector& c, const Item& item);
 
 /// How the device of `item` moves, whose place on its link the parameters `offset` and `rpy` give; writes
 /// `sensor.origin`. [setup]
-link_acceleration::LinkMotion device_motion(Connector& c, const Item& item, link_acceleration::Order order);
+link_motion::LinkMotion device_motion(Connector& c, const Item& item, link_motion::Order order);
 
 /// The constant of the scene, m/s^2 in world axes. [setup]
 Vec3 gravity_of(const Connector& c);

@@ -14,12 +14,12 @@ namespace muro::internal_sensor {
 class SceneFrame {
  public:
   SceneFrame() = default;
-  SceneFrame(link_acceleration::LinkMotion link)  // NOLINT(google-explicit-constructor): it is one
+  SceneFrame(link_motion::LinkMotion link)  // NOLINT(google-explicit-constructor): it is one
       : link_(std::move(link)) {}
   /// Of what `name` stands for: a part of the robot of `item`, a robot (its base), `robot/part`, or scenery. Throws
   /// Error where there is nothing of this name that has a pose. [setup]
   static SceneFrame named(Connector& c, const Item& item, std::string_view name) {
-    using link_acceleration::LinkMotion, link_acceleration::Order;
+    using link_motion::LinkMotion, link_motion::Order;
     for (const RobotView* robot : c.robots())
       if (robot->name == name) return LinkMotion(c, *robot, 0, Pose{}, Order::twist);
     ObjectId object = c.find_object(std::string(item.robot->name) + "/" + std::string(name));
@@ -41,12 +41,10 @@ class SceneFrame {
   }
 
   /// [step]
-  link_acceleration::FrameMotion now() const {
-    return link_ ? link_.now() : link_acceleration::FrameMotion{standing_, {}, {}};
-  }
+  link_motion::FrameMotion now() const { return link_ ? link_.now() : link_motion::FrameMotion{standing_, {}, {}}; }
 
  private:
-  link_acceleration::LinkMotion link_;
+  link_motion::LinkMotion link_;
   Pose standing_;  ///< of what stands
 };
 
