@@ -60,9 +60,12 @@ allowance() {
   allowed=std
   for i in "${!folder_regexes[@]}"; do
     [[ $file =~ ${folder_regexes[i]} ]] || continue
-    local own=${BASH_REMATCH[1]} words=" ${folder_allows[i]} "
+    local own=${BASH_REMATCH[1]} words=" ${folder_allows[i]} " family
+    family=${own%/*}/common
+    [[ -d $family ]] || family=
     [[ ${folder_for[i]} == folder || $file =~ (_test\.cpp|_testing\.hpp|/bench_[^/]*\.cpp)$ ]] || continue
-    allowed+=${words/ own / $own }
+    words=${words/ own / $own }
+    allowed+=${words/ family / $family }
   done
 }
 
