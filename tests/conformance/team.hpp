@@ -79,7 +79,7 @@ struct Team : Scene {
   void command() {
     for (const RobotView* r : rovers) {
       const double turn = 0.2 * double(r->number) - 0.4;
-      if (world().store().find(r->base(), "command.twist")) {
+      if (world().has(r->base(), "command.twist")) {
         world().value(r->base(), keys::command_twist) = {{0.5, 0, 0}, {0, 0, turn}};
         continue;
       }

@@ -39,7 +39,7 @@ TEST(Levels, RoversOfAllLevelsPushABallAndBoxesAndEachOther) {
       ASSERT_GT(pose.position.z(), 0.05) << r->name << " fell through the ground at " << 0.05 * k;
       ASSERT_LT(pose.position.z(), 0.6) << r->name << " flew up at " << 0.05 * k;
       const ObjectId base = r->base();
-      if (!s.world().store().find(base, "contacts")) continue;
+      if (!s.world().has(base, "contacts")) continue;
       for (const Contact& c : s.world().values(base, keys::contacts))
         if (const std::int32_t other = s.world().robot_of(c.other); other >= 0)
           pairs.emplace(r->name, robots[std::size_t(other)]->name);

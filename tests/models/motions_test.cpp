@@ -42,7 +42,7 @@ std::vector<ModelAtMotion> models_at_motions() {
 double lowest_point(const World& world, const RobotView& robot, MeshCorners& meshes) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Link& link : robot.links) {
-    if (!world.store().find(link.object, keys::collision_shapes.name)) continue;
+    if (!world.has(link.object, keys::collision_shapes.name)) continue;
     for (const Shape& s : world.values(link.object, keys::collision_shapes)) {
       const Pose at = world.value(link.object, keys::pose) * s.origin;
       const std::string mesh = s.kind == ShapeKind::mesh ? std::string(world.text(s.mesh)) : "";

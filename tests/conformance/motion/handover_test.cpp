@@ -84,11 +84,11 @@ struct Flight : test::Scene {
     use_contacts();
     build();
     for (const char* joint : {"r/left", "r/right"}) {
-      if (world().store().find(world().object(joint), "joint.velocity.target"))
+      if (world().has(world().object(joint), "joint.velocity.target"))
         world().value(joint, keys::joint_velocity_target) = spin;
       if (a != "motion.point" && a != "motion.differential_drive") world().value(joint, keys::joint_velocity) = spin;
     }
-    if (world().store().find(robot->base(), "command.twist"))
+    if (world().has(robot->base(), "command.twist"))
       world().value(robot->base(), keys::command_twist) = {{speed, 0, 0}, Vec3::Zero()};
   }
   double& of(const char* joint, const Key<double>& key) { return world().value(joint, key); }
@@ -187,7 +187,7 @@ struct Porter : test::Scene {
   }
   void hand_over(std::int32_t level) { world().value(robot->base(), keys::motion_level_target) = level; }
   double effort() { return world().value("r/joint", keys::joint_effort); }
-  bool has(const KeyInfo& key) { return world().store().find(robot->base(), key.name) != nullptr; }
+  bool has(const KeyInfo& key) { return world().has(robot->base(), key.name); }
 };
 
 class EveryMotionByForces : public ::testing::TestWithParam<std::string> {};
