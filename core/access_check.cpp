@@ -25,7 +25,7 @@ std::string call_of(const Task& task, const Step& step, Range range) {
 }  // namespace
 
 AccessCheck::AccessCheck(PropertyStore& store, const std::vector<Instance*>& instances,
-                         std::vector<std::int32_t> robot_of_slot)
+                         std::vector<RobotId> robot_of_slot)
     : store_(store), robot_of_slot_(std::move(robot_of_slot)) {
   for (Instance* instance : instances) {
     Bindings b{&instance->algorithm(), &instance->description(), instance->accessor(),
@@ -59,17 +59,17 @@ AccessCheck::Allowed AccessCheck::allowed(const Bindings& bindings, const Task& 
                                           Range range) const {
   const Phase phase = task.phases[step.phase];
   const bool divided = phase.index_space != Phase::IndexSpace::whole;
-  const auto in_range = [&](std::int32_t robot) {
+  const auto in_range = [&](RobotId robot) {
     if (phase.index_space == Phase::IndexSpace::robots)
-      return robot >= std::int32_t(range.begin) && robot < std::int32_t(range.end);
+      return index_of(robot) >= range.begin && index_of(robot) < range.end;
     const auto& robots = task.robot_of_item;
     return std::find(robots.begin() + range.begin, robots.begin() + range.end, robot) != robots.begin() + range.end;
   };
   Allowed a{std::vector<bool>(memory_.size()), std::vector<bool>(memory_.size())};
   for (std::size_t i = 0; i < memory_.size(); ++i) {
     const Memory& m = memory_[i];
-    const std::int32_t robot = robot_of_slot_[m.slot];
-    const bool own = !divided || robot < 0 || in_range(robot);
+    const RobotId robot = robot_of_slot_[m.slot];
+    const bool own = !divided || robot == no_robot || in_range(robot);
     const bool of_another = m.contributor != setup_accessor && m.contributor != bindings.accessor;
     a.writes[i] = bindings.writes[m.slot] && own && !of_another;
     a.reads[i] = bindings.reads[m.slot] && (own || phase.scope == Phase::Scope::reads_all);

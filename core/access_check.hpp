@@ -21,7 +21,7 @@ class Instance;
 /// times longer.
 class AccessCheck final : public CallObserver {
  public:
-  AccessCheck(PropertyStore& store, const std::vector<Instance*>& instances, std::vector<std::int32_t> robot_of_slot);
+  AccessCheck(PropertyStore& store, const std::vector<Instance*>& instances, std::vector<RobotId> robot_of_slot);
   bool call(const Task& task, const Step& step, Range range, abi::ErrorText& error) override;
 
  private:
@@ -60,7 +60,7 @@ class AccessCheck final : public CallObserver {
 
   PropertyStore& store_;
   std::vector<Bindings> bindings_;
-  std::vector<std::int32_t> robot_of_slot_;
+  std::vector<RobotId> robot_of_slot_;
   std::vector<Memory> memory_;
   Copy before_step_;
 };

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "core/running_call.hpp"
-#include "muro/toolkit/printable.hpp"
+#include "muro/base/printable.hpp"
 
 namespace muro {
 namespace {

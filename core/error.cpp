@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "muro/toolkit/printable.hpp"
+#include "muro/base/printable.hpp"
 
 namespace muro {
 

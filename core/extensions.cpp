@@ -34,8 +34,7 @@ void* Extensions::find(const ExtensionId& id, std::string& why_not) {
                           {ExternalInputs::id(), static_cast<ExternalInputs*>(&inputs_)},
                           {RunControl::id(), static_cast<RunControl*>(&requests_)},
                           {Lockstep::id(), static_cast<Lockstep*>(&lockstep_)},
-                          {ReportEntries::id(), static_cast<ReportEntries*>(&reported_numbers_)},
-                          {ReportNumbers::id(), static_cast<ReportNumbers*>(&reported_numbers_)}};
+                          {ReportEntries::id(), static_cast<ReportEntries*>(&reported_numbers_)}};
   for (const Offer& offer : offers) {
     if (offer.id.name != id.name) continue;
     if (offer.id.version == id.version && offer.id.layout == id.layout) {

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 
 namespace muro {
 
@@ -62,9 +62,9 @@ std::shared_ptr<const Callee> Instance::make_callee() const {
   for (std::size_t i = 0; i < setup_.items.size() && !whole_scene; ++i) {
     const Item& item = setup_.items[i];
     Callee::OfItem& of_item = callee.items.emplace_back();
-    const std::int32_t robot = item.robot ? std::int32_t(item.robot->number) : world_.robot_of(item.object);
-    of_item.is_robot = robot >= 0;
-    of_item.object = robot >= 0 ? world_.robots()[std::size_t(robot)]->name : world_.object_name(item.object);
+    const RobotId robot = item.robot ? item.robot->id : world_.robot_of(item.object);
+    of_item.is_robot = robot != no_robot;
+    of_item.object = of_item.is_robot ? world_.robots()[index_of(robot)]->name : world_.object_name(item.object);
     if (setup_.item_setups.empty()) continue;
     of_item.name = setup_.item_setups[i].name;
     of_item.place = setup_.item_setups[i].place;
@@ -169,8 +169,10 @@ std::vector<SlotAccess> Instance::accesses() const {
 }
 
 std::vector<Phase> Instance::phases() const {
-  const std::span<const Phase> given = algorithm_->phases();
-  if (!given.empty()) return {given.begin(), given.end()};
+  const Rows<Phase> given = algorithm_->phases();
+  std::vector<Phase> phases;
+  for (std::size_t i = 0; i < given.size(); ++i) phases.push_back(given.known(i));
+  if (!phases.empty()) return phases;
   const bool batched = (description().capabilities & Capability::batched) != 0;
   return {{batched ? Phase::IndexSpace::items : Phase::IndexSpace::whole, Phase::Scope::reads_all}};
 }
@@ -186,7 +188,7 @@ std::string_view Instance::resolve_path(std::string_view path) const noexcept {
   return paths_.emplace_back((given.is_absolute() ? given : base / given).lexically_normal().string());
 }
 
-std::span<const FoundProperty> Instance::properties(ObjectId object) const noexcept {
+Rows<FoundProperty> Instance::properties(ObjectId object) const noexcept {
   found_.clear();
   for (const PropertyStore::NamedSlot& n : world_.store().properties(object)) {
     const Slot& s = world_.store().slot(n.slot);
@@ -213,9 +215,8 @@ bool Instance::is_used(ObjectId object, const KeyInfo& key, Usage usage) const n
 
 void* Instance::bind(ObjectId object, const KeyInfo& key, Usage usage, Multiplicity multiplicity, std::uint32_t count,
                      const void* initial) noexcept {
-  const std::int32_t robot = world_.robot_of(object);
-  const bool inactive =
-      robot >= 0 && std::size_t(robot) < inactive_at_start_.size() && inactive_at_start_[std::size_t(robot)];
+  const std::size_t robot = index_of(world_.robot_of(object));
+  const bool inactive = robot < inactive_at_start_.size() && inactive_at_start_[robot];
   void* handle = world_.store().bind(accessor_, object, key, usage, multiplicity, count, initial, inactive);
   bound_.push_back({world_.store().slots_of(accessor_).back(), usage});
   return handle;

@@ -7,15 +7,16 @@
 #include "core/algorithm_setup.hpp"
 #include "core/schedule/task.hpp"
 #include "core/world.hpp"
-#include "muro/abi.hpp"
+#include "muro/detail/abi.hpp"
 
 namespace muro {
 
-/// The place of an algorithm in an instant: that of its kind, worlds before all other motions, since they read where
-/// those are.
-constexpr int order_of(const Description& d) {
-  return 2 * order_of(d.kind) + (d.kind == Kind::motion && (d.capabilities & Capability::world) == 0 ? 1 : 0);
+/// The rank of an algorithm within its kind. Worlds run before all other motions, since they read where those are.
+constexpr Rank rank_of(const Description& d) {
+  return d.kind == Kind::motion && (d.capabilities & Capability::world) == 0 ? Rank::second : Rank::first;
 }
+/// The place of an algorithm in an instant.
+constexpr int order_of(const Description& d) { return order_of(d.kind, rank_of(d)); }
 
 /// Parameters checked against a description, with memory for what they point to.
 class ParameterSet {
@@ -81,9 +82,15 @@ class Instance final : private Connector {
   const std::deque<std::string>& resolved_paths() const { return paths_; }
   /// How a step is divided; one or more.
   std::vector<Phase> phases() const;
+  /// Returns the interface that the algorithm offers, or null. [after connect]
+  template <class Interface>
+  Interface* find_extension() {
+    const CallScope scope(*callee_, "find_extension");
+    return static_cast<Interface*>(algorithm_->find_extension(Interface::id()));
+  }
 
  private:
-  std::span<const Item> items() const noexcept override { return setup_.items; }
+  Rows<Item> items() const noexcept override { return setup_.items; }
   const Parameters& parameters() const noexcept override { return parameters_.view(); }
   const Parameters& parameters_of(std::uint32_t i) const noexcept override {
     return item_parameters_.empty() ? parameters_.view() : item_parameters_[i].view();
@@ -95,9 +102,9 @@ class Instance final : private Connector {
   std::string_view object_name(ObjectId object) const noexcept override { return world_.object_name(object); }
   ObjectId find_object(std::string_view name) const noexcept override { return world_.find_object(name); }
   std::span<const RobotView* const> robots() const noexcept override { return world_.robots(); }
-  std::int32_t robot_of(ObjectId object) const noexcept override { return world_.robot_of(object); }
+  RobotId robot_of(ObjectId object) const noexcept override { return world_.robot_of(object); }
   std::string_view text(TextId id) const noexcept override { return world_.text(id); }
-  std::span<const FoundProperty> properties(ObjectId object) const noexcept override;
+  Rows<FoundProperty> properties(ObjectId object) const noexcept override;
   bool is_used(ObjectId object, const KeyInfo& key, Usage usage) const noexcept override;
   void* state_block(ObjectId object, std::string_view name, std::uint32_t size) noexcept override;
   void* bind(ObjectId object, const KeyInfo& key, Usage usage, Multiplicity multiplicity, std::uint32_t count,

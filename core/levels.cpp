@@ -21,11 +21,12 @@ class Levels::LevelFilter final : public abi::AlgorithmInstance {
   bool connect(Connector& c, abi::ErrorText& e) noexcept override { return filtered_.connect(c, e); }
   bool connect_by_name(Connector& c, abi::ErrorText& e) noexcept override { return filtered_.connect_by_name(c, e); }
   bool start(abi::ErrorText& e) noexcept override { return filtered_.start(e); }
-  std::span<const Phase> phases() const noexcept override { return filtered_.phases(); }
+  Rows<Phase> phases() const noexcept override { return filtered_.phases(); }
   bool restored(abi::ErrorText& e) noexcept override { return filtered_.restored(e); }
   bool finish(abi::ErrorText& e) noexcept override { return filtered_.finish(e); }
   void destroy() noexcept override {}
   bool on_handover(std::uint32_t item, abi::ErrorText& e) noexcept override { return filtered_.on_handover(item, e); }
+  void* find_extension(const ExtensionId& id) noexcept override { return filtered_.find_extension(id); }
 
   bool step(const Step& step, Range range, abi::ErrorText& error) noexcept override {
     if (phases_[step.phase].index_space != Phase::IndexSpace::items)
@@ -66,7 +67,7 @@ void Levels::prepare(World& world, const std::vector<LevelsOfRobot>& robots,
     for (const Mover& m : r.movers) accessors.push_back(m.instance->accessor());
     std::vector<ObjectId> objects;
     for (std::uint32_t i = 0; i < world.object_count(); ++i)
-      if (world.robot_of(ObjectId{i}) == std::int32_t(setup.robot->number)) objects.push_back(ObjectId{i});
+      if (world.robot_of(ObjectId{i}) == setup.robot->id) objects.push_back(ObjectId{i});
     world.store().let_alternate(objects, accessors);
     add_properties(world, accessor, setup.names, r);
   }
@@ -113,15 +114,14 @@ void Levels::add_properties(World& world, Accessor accessor, const std::vector<s
   world.set_array(base, keys::motion_level_names, std::span<const TextId>(texts));
 }
 
-Levels::Robot* Levels::find(std::int32_t number) {
-  const auto r = std::find_if(robots_.begin(), robots_.end(),
-                              [&](const Robot& k) { return std::int32_t(k.view->number) == number; });
+Levels::Robot* Levels::find(RobotId id) {
+  const auto r = std::find_if(robots_.begin(), robots_.end(), [&](const Robot& k) { return k.view->id == id; });
   return r == robots_.end() ? nullptr : &*r;
 }
-const Levels::Robot* Levels::find(std::int32_t number) const { return const_cast<Levels*>(this)->find(number); }
+const Levels::Robot* Levels::find(RobotId id) const { return const_cast<Levels*>(this)->find(id); }
 
-bool Levels::is_inactive_at_start(std::int32_t number, std::uint32_t level) const {
-  const Robot* r = find(number);
+bool Levels::is_inactive_at_start(RobotId robot, std::uint32_t level) const {
+  const Robot* r = find(robot);
   return r && r->first != level;
 }
 
@@ -130,7 +130,7 @@ std::vector<SlotId> Levels::traits_of(const World& world, const Robot& robot, co
   std::vector<SlotId> traits;
   for (const SlotId slot : mover.instance->writes()) {
     const Slot& s = store_->slot(slot);
-    if (store_->key_of(s).role == Role::motion_trait && world.robot_of(s.object) == std::int32_t(robot.view->number))
+    if (store_->key_of(s).role == Role::motion_trait && world.robot_of(s.object) == robot.view->id)
       traits.push_back(slot);
   }
   std::sort(traits.begin(), traits.end());
@@ -162,11 +162,11 @@ abi::AlgorithmInstance* Levels::filter_of(Instance& instance) {
   const bool alternates = instance.description().kind == Kind::motion &&
                           (instance.description().capabilities & Capability::world) == 0 &&
                           std::any_of(items.begin(), items.end(),
-                                      [&](const Item& i) { return i.robot && find(std::int32_t(i.robot->number)); });
+                                      [&](const Item& i) { return i.robot && find(i.robot->id); });
   if (!alternates) return &instance.algorithm();
   LevelFilter& filter = *filters_.emplace_back(std::make_unique<LevelFilter>(instance.algorithm(), instance.phases()));
   for (const Item& i : items) {
-    const Robot* r = find(std::int32_t(i.robot->number));
+    const Robot* r = find(i.robot->id);
     filter.add(r ? r->level : nullptr, i.level);
   }
   return &filter;
@@ -186,7 +186,8 @@ Task Levels::task(std::span<const std::unique_ptr<Instance>> all) {
   t.name = "levels";
   t.instance = this;
   t.items = 1;
-  t.order = 2 * order_of(Kind::level) + 1;
+  t.kind = Kind::level;
+  t.rank = Rank::second;  // after the rules
   t.writes = written();
   for (const SlotId slot : t.writes) t.accesses.push_back({slot, true});
   for (const Robot& r : robots_) {

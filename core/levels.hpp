@@ -36,8 +36,8 @@ class Levels final : public abi::AlgorithmInstance {
   /// When they are connected.
   void complete(World& world);
   bool empty() const { return robots_.empty(); }
-  /// Of robot `number`: whether `level` is not the one that moves it at the start.
-  bool is_inactive_at_start(std::int32_t number, std::uint32_t level) const;
+  /// Whether another level than `level` moves the robot at the start.
+  bool is_inactive_at_start(RobotId robot, std::uint32_t level) const;
 
   /// What a hand-over writes beside what the motions write. An algorithm that decides about levels does not wait for
   /// the hand-over of the instant: that it reads one of these properties is no reason to run the hand-over first.
@@ -52,12 +52,13 @@ class Levels final : public abi::AlgorithmInstance {
   bool connect(Connector&, abi::ErrorText&) noexcept override { return true; }
   bool connect_by_name(Connector&, abi::ErrorText&) noexcept override { return true; }
   bool start(abi::ErrorText&) noexcept override { return true; }
-  std::span<const Phase> phases() const noexcept override { return {}; }
+  Rows<Phase> phases() const noexcept override { return {}; }
   bool step(const Step& step, Range range, abi::ErrorText& error) noexcept override;
   bool restored(abi::ErrorText&) noexcept override { return true; }
   bool finish(abi::ErrorText&) noexcept override { return true; }
   void destroy() noexcept override {}
   bool on_handover(std::uint32_t, abi::ErrorText&) noexcept override { return true; }
+  void* find_extension(const ExtensionId&) noexcept override { return nullptr; }
 
   struct Mover {
     Instance* instance = nullptr;
@@ -78,8 +79,8 @@ class Levels final : public abi::AlgorithmInstance {
 
   static std::vector<Mover> movers_of(const LevelsOfRobot& setup, std::span<const std::unique_ptr<Instance>> all);
   static void add_properties(World& world, Accessor accessor, const std::vector<std::string>& names, Robot& r);
-  Robot* find(std::int32_t number);
-  const Robot* find(std::int32_t number) const;
+  Robot* find(RobotId id);
+  const Robot* find(RobotId id) const;
   std::vector<SlotId> traits_of(const World& world, const Robot& robot, const Mover& mover) const;
 
   PropertyStore* store_ = nullptr;

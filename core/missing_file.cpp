@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 
 namespace muro {
 

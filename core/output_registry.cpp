@@ -8,7 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "muro/toolkit/whole_file.hpp"
+#include "muro/base/whole_file.hpp"
 
 namespace muro {
 

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/instance.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 
 namespace muro {
 

@@ -8,10 +8,11 @@
 #include <mutex>
 
 #include "core/error.hpp"
+#include "core/own_table.hpp"
 #include "core/running_call.hpp"
 #include "muro/detail/contract_layout.hpp"
 #include "muro/detail/stamp.hpp"
-#include "muro/toolkit/whole_library.hpp"
+#include "muro/base/whole_library.hpp"
 
 namespace muro {
 
@@ -62,7 +63,10 @@ void check_table(const abi::PluginTable& table, const std::string& path) {
   static constexpr abi::Stamp ours = abi::make_stamp();
   const std::string differs = difference(ours, table.stamp);
   if (!differs.empty())
-    throw SetupError(fmt::format("plugin {} was built for another muro: {}; {}", path, differs, again));
+    throw SetupError(fmt::format("plugin {} was built for another muro: {}; {}{}", path, differs, again,
+                                 ours.sdk_major == table.stamp.sdk_major
+                                     ? ""
+                                     : "; sdk/CHANGELOG.md says what to write for a new version of the SDK"));
   if (table.table_size != sizeof table)
     throw SetupError(fmt::format("plugin {} has a table of {} bytes instead of {}; {}", path, table.table_size,
                                  sizeof table, again));
@@ -79,7 +83,12 @@ const abi::PluginTable& load_plugin(const std::string& path) {
   namespace dll = boost::dll;
   static std::mutex mutex;
   // never unloaded, at the end of the program neither: objects of plugins may outlive any caller
-  static auto& loaded = *new std::deque<dll::shared_library>;
+  struct Loaded {
+    Loaded(const dll::shared_library& library_, const abi::PluginTable& given) : library(library_), own(given) {}
+    dll::shared_library library;
+    OwnTable own;
+  };
+  static auto& loaded = *new std::deque<Loaded>;
   const Callee callee{.name = "plugin " + path, .library = path};
   const CallScope scope(callee, "load");  // constructors of the library run
   dll::shared_library library;
@@ -98,8 +107,7 @@ const abi::PluginTable& load_plugin(const std::string& path) {
   const auto& table = library.get<const abi::PluginTable>(abi::table_symbol);
   check_table(table, path);
   const std::lock_guard lock(mutex);
-  loaded.push_back(library);
-  return table;
+  return loaded.emplace_back(library, table).own.table();
 }
 
 }  // namespace muro

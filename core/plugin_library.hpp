@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "muro/abi.hpp"
+#include "muro/detail/abi.hpp"
 
 namespace muro {
 

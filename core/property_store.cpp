@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/own_values.hpp"
 
 namespace muro {
 
@@ -27,6 +28,11 @@ void grow_list(ListHeader* list, std::uint64_t wanted) {
   if (!memory) throw std::bad_alloc();
   list->data = memory;
   list->capacity = capacity;
+}
+
+std::string_view name_of(Role role) {
+  constexpr std::string_view names[] = {"state", "command", "motion_trait"};
+  return names[static_cast<int>(role)];
 }
 
 std::string_view name_of(Multiplicity multiplicity) {
@@ -68,7 +74,9 @@ std::string PropertyStore::where(ObjectId object, std::string_view key) const {
 
 std::string PropertyStore::who(Accessor p) const { return accessors_[p]; }
 
-std::uint32_t PropertyStore::column_of(Accessor accessor, const KeyInfo& key) {
+std::uint32_t PropertyStore::column_of(Accessor accessor, const KeyInfo& given) {
+  const OwnValues own(given, nullptr, 0);
+  const KeyInfo& key = own.key();
   const auto it = column_index_.find(key.name);
   if (it == column_index_.end()) {
     columns_.emplace_back(key);
@@ -87,6 +95,10 @@ std::uint32_t PropertyStore::column_of(Accessor accessor, const KeyInfo& key) {
     problems_.push_back(
         fmt::format("property `{}`: unit \"{}\" and unit \"{}\" are declared by {}; use one unit, or another name",
                     key.name, known.unit, key.unit, accessors));
+  else if (known.role != key.role)
+    problems_.push_back(fmt::format(
+        "property `{}`: role {} and role {} are declared by {}; declare the key in one place, as the vocabulary does",
+        key.name, name_of(known.role), name_of(key.role), accessors));
   else
     return it->second;
   columns_.emplace_back(key);  // memory of the right size, so that set-up can go on to the next problem
@@ -145,7 +157,9 @@ void PropertyStore::reserve(Slot& s, Multiplicity multiplicity, std::uint32_t co
   s.multiplicity = multiplicity;
 }
 
-void PropertyStore::set_constant(ObjectId object, const KeyInfo& key, const void* data, std::uint32_t count) {
+void PropertyStore::set_constant(ObjectId object, const KeyInfo& given, const void* given_data, std::uint32_t count) {
+  const OwnValues own(given, given_data, count == single_value ? 1 : count);
+  const KeyInfo& key = own.key();
   Slot& s = slots_[slot_for(setup_accessor, object, key)];
   if (s.kind == Slot::Class::variable || s.kind == Slot::Class::derived) {
     problems_.push_back(where(object, key.name) + " is written by " +
@@ -159,13 +173,13 @@ void PropertyStore::set_constant(ObjectId object, const KeyInfo& key, const void
   s.initialised = true;
   s.count = elements;
   reserve(s, multiplicity, elements);
-  if (elements > 0) std::memcpy(s.place, data, std::size_t(elements) * key.type->size);
+  if (elements > 0) std::memcpy(s.place, own.data(), std::size_t(elements) * key.type->size);
 }
 
 ArrayHeader PropertyStore::constant(ObjectId object, const KeyInfo& key) const {
   const Slot* s = find(object, key.name);
   if (!s || s->kind != Slot::Class::constant || !(*key_of(*s).type == *key.type)) return {};
-  return {s->place, s->count};
+  return {s->place, s->count, key_of(*s).type->size};
 }
 
 void PropertyStore::share(ObjectId a, const KeyInfo& key_a, ObjectId b, const KeyInfo& key_b) {
@@ -252,11 +266,14 @@ void* PropertyStore::bind(Accessor accessor, ObjectId object, const KeyInfo& key
   const bool creates = usage == usage::variable || usage == usage::derived;
   if (creates && multiplicity == Multiplicity::array && count == 0)
     problems_.push_back(where(object, key.name) + " is created as an array without elements by " + who(accessor));
+  if (key.type->grows)
+    problems_.push_back(fmt::format("{} is used by {}, but its type {} is for constants: ask for it by constant_array()",
+                                    where(object, key.name), who(accessor), key.type->name));
   if ((writes(usage) || usage == usage::accumulate) && s->kind == Slot::Class::constant)
     problems_.push_back(fmt::format("{} is a constant, but {} writes it", where(object, key.name), who(accessor)));
   use(*s, id, accessor, usage);
   if (initial && s->kind != Slot::Class::constant && (!s->initialised || (usage == usage::variable && !inactive))) {
-    std::memcpy(s->place, initial, key.type->size);
+    std::memcpy(s->place, initial, std::min(key.type->size, key_of(*s).type->size));
     s->initialised = usage == usage::variable || usage == usage::input;  // others only fill what nobody has set
   }
   if (creates) s->object = object;

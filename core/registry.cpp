@@ -16,7 +16,7 @@
 #include "core/error.hpp"
 #include "core/plugin_library.hpp"
 #include "describe/describe.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 
 namespace muro {
 

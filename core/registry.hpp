@@ -7,7 +7,7 @@
 
 #include "core/plugin_folder.hpp"
 #include "core/used_library.hpp"
-#include "muro/abi.hpp"
+#include "muro/detail/abi.hpp"
 
 namespace muro {
 

@@ -9,14 +9,14 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/own_values.hpp"
 #include "core/extent_along.hpp"
 #include "core/point_bounds.hpp"
 #include "core/value_check.hpp"
-#include "muro/ext/model_subsystems.hpp"
-#include "muro/ext/visual_materials.hpp"
-#include "muro/toolkit/bounds.hpp"
-#include "muro/toolkit/elementary.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/vocabulary/model.hpp"
+#include "muro/base/bounds.hpp"
+#include "muro/base/elementary.hpp"
+#include "muro/base/limits.hpp"
 #include "muro/toolkit/link_pose.hpp"
 #include "muro/vocabulary.hpp"
 
@@ -165,10 +165,17 @@ void RobotTree::body(std::string_view name) noexcept {
 
 TextId RobotTree::intern(std::string_view text) noexcept { return texts_.intern(text); }
 
-void RobotTree::set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept {
+void* RobotTree::find_extension(const ExtensionId& id) noexcept {
+  return id == PackageFolders::id() ? static_cast<PackageFolders*>(this) : nullptr;
+}
+
+void RobotTree::set_raw(const KeyInfo& given, const void* given_data, std::uint32_t count) noexcept {
   if (last_component_ < 0)
-    return report(Severity::error, "constant `" + std::string(key.name) + "` before base()", 0, 0);
+    return report(Severity::error, "constant `" + std::string(given.name) + "` before base()", 0, 0);
   const std::uint32_t elements = count == single_value ? 1 : count;
+  const OwnValues own(given, given_data, elements);
+  const KeyInfo& key = own.key();
+  const void* const data = own.data();
   if (const std::string problem = problem_of_values(key, data, elements); !problem.empty())
     report(
         Severity::error,

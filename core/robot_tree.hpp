@@ -71,6 +71,7 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
   TextId intern(std::string_view text) noexcept override;
   void report(Severity severity, std::string_view text, int line, int column) noexcept override;
 
+  void* find_extension(const ExtensionId& id) noexcept override;
   std::span<const PackageFolder> package_folders() const noexcept override { return packages_; }
   /// For the reader that builds it; must outlive that.
   void set_packages(std::span<const PackageFolder> packages) { packages_ = packages; }

@@ -68,7 +68,7 @@ std::size_t Simulation::use(const std::string& id, double rate, std::vector<Item
 }
 
 ObjectId Simulation::add_sensor_object(const RobotView& robot, std::string_view name, ObjectId link) {
-  const ObjectId sensor = world_.add_object(std::string(robot.name) + "/" + std::string(name), robot.number);
+  const ObjectId sensor = world_.add_object(std::string(robot.name) + "/" + std::string(name), robot.id);
   world_.share(sensor, keys::pose, link, keys::pose);
   world_.share(sensor, keys::twist, link, keys::twist);
   world_.set(sensor, keys::sensor_link, link);

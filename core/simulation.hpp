@@ -153,7 +153,7 @@ class Simulation {
   void check_outputs();
   void start_all();
   void begin_epoch();
-  std::vector<std::int32_t> robot_of_slot() const;
+  std::vector<RobotId> robot_of_slot() const;
 
   Registry& registry_;
   std::map<std::string, std::string> packages_;  ///< folders by name

@@ -50,6 +50,9 @@ void Simulation::build() {
     scheduler_.set_one_at_a_time();
   }
   start_all();
+  for (const auto& instance : instances_)
+    if (auto* const attendant = instance->find_extension<PauseAttendant>())
+      extensions_->requests().add_attendant(*attendant);
 }
 
 void Simulation::make_instances() {
@@ -81,9 +84,8 @@ void Simulation::partition_memory() {
   const std::vector<std::uint32_t> bounds = block_bounds(std::uint32_t(world_.robots().size()));
   std::vector<std::uint32_t> partitions(world_.object_count(), 0);
   for (std::uint32_t i = 0; i < partitions.size(); ++i)
-    if (const std::int32_t robot = world_.robot_of(ObjectId{i}); robot >= 0)
-      partitions[i] =
-          std::uint32_t(std::upper_bound(bounds.begin(), bounds.end(), std::uint32_t(robot)) - bounds.begin());
+    if (const RobotId robot = world_.robot_of(ObjectId{i}); robot != no_robot)
+      partitions[i] = std::uint32_t(std::upper_bound(bounds.begin(), bounds.end(), index_of(robot)) - bounds.begin());
   world_.store().set_partitions(std::move(partitions));
 }
 
@@ -93,7 +95,7 @@ void Simulation::mark_inactive_motions() {
     std::vector<bool> inactive(world_.robots().size());
     for (const Item& item : instance->setup().items)
       if (item.robot && instance->description().kind == Kind::motion)
-        inactive[item.robot->number] = levels_->is_inactive_at_start(std::int32_t(item.robot->number), item.level);
+        inactive[index_of(item.robot->id)] = levels_->is_inactive_at_start(item.robot->id, item.level);
     instance->set_inactive_at_start(std::move(inactive));
   }
 }
@@ -177,14 +179,15 @@ void Simulation::schedule() {
     task.instance = levels_->filter_of(*instance);
     task.items = std::uint32_t(s.items.size());
     for (const Item& item : s.items)
-      task.robot_of_item.push_back(item.robot ? std::int32_t(item.robot->number) : world_.robot_of(item.object));
+      task.robot_of_item.push_back(item.robot ? item.robot->id : world_.robot_of(item.object));
     task.phases = instance->phases();
     task.accesses = instance->accesses();
     task.robots = std::uint32_t(world_.robots().size());
     task.runs_alone = (instance->description().capabilities & Capability::runs_alone) != 0;
     task.rate = s.rate;
     task.phase = s.phase;
-    task.order = order_of(instance->description());
+    task.kind = instance->description().kind;
+    task.rank = rank_of(instance->description());
     task.reads = instance->reads();
     if (instance->description().kind == Kind::level)
       std::erase_if(task.reads, [&](SlotId slot) { return contains(written_by_handover, slot); });
@@ -204,11 +207,11 @@ void Simulation::schedule() {
   scheduler_.prepare();
 }
 
-std::vector<std::int32_t> Simulation::robot_of_slot() const {
-  std::vector<std::int32_t> robots;
+std::vector<RobotId> Simulation::robot_of_slot() const {
+  std::vector<RobotId> robots;
   for (SlotId i = 0; i < world_.store().slot_count(); ++i) {
     const ObjectId object = world_.store().slot(i).object;
-    robots.push_back(object == no_object ? -1 : world_.robot_of(object));
+    robots.push_back(object == no_object ? no_robot : world_.robot_of(object));
   }
   return robots;
 }

@@ -6,8 +6,8 @@
 #include <cstring>
 
 #include "core/error.hpp"
-#include "muro/toolkit/limits.hpp"
-#include "muro/toolkit/printable.hpp"
+#include "muro/base/limits.hpp"
+#include "muro/base/printable.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {

@@ -10,7 +10,7 @@
 namespace muro {
 
 /// What is wrong with the values of a constant, as the end of a sentence: its poses, velocities, inertias, shapes and
-/// numbers lie within muro/toolkit/limits.hpp. Empty: nothing is. `count`: elements; a single value is one.
+/// numbers lie within muro/base/limits.hpp. Empty: nothing is. `count`: elements; a single value is one.
 std::string problem_of_values(const KeyInfo& key, const void* data, std::uint32_t count);
 
 /// Throws SetupError that names object and property when there is something.

@@ -9,8 +9,8 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/value_check.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/did_you_mean.hpp"
+#include "muro/base/random.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {
@@ -26,14 +26,14 @@ ObjectId World::add_object(std::string_view name) {
   if (!by_name_.emplace(std::string(name), id).second)
     throw SetupError("two objects are named `" + std::string(name) + "`; names are unique");
   store_.add_object(std::string(name));
-  robot_of_.push_back(-1);
+  robot_of_.push_back(no_robot);
   return id;
 }
 
-ObjectId World::add_object(std::string_view name, std::uint32_t robot) {
+ObjectId World::add_object(std::string_view name, RobotId robot) {
   const ObjectId id = add_object(name);
-  robot_of_.back() = std::int32_t(robot);
-  robots_[robot].objects.push_back(id);
+  robot_of_.back() = robot;
+  robots_[index_of(robot)].objects.push_back(id);
   return id;
 }
 
@@ -97,15 +97,15 @@ const RobotView& World::add_robot(std::string_view name, const RobotTree& tree, 
   check_object_name(name, "a robot");
   check_values(std::string(name), keys::initial_pose, &start, 1);
   if (find_robot(name)) throw SetupError("two robots are named `" + std::string(name) + "`; names are unique");
-  const auto number = std::uint32_t(robots_.size());
+  const RobotId id{std::uint32_t(robots_.size())};
   Robot& r = robots_.emplace_back();
   r.name = name;
-  robot_by_name_.emplace(r.name, number);
+  robot_by_name_.emplace(r.name, index_of(id));
   std::vector<TextId> texts;
   for (const std::string& t : tree.texts()) texts.push_back(intern(t));
   std::vector<ObjectId> objects;
   for (const RobotTree::Component& component : tree.components()) {
-    objects.push_back(add_object(r.name + "/" + component.name, number));
+    objects.push_back(add_object(r.name + "/" + component.name, id));
     for (const RobotTree::Constant& c : component.constants) {
       const std::vector<std::byte> data = with_texts(c, texts, object_name(objects.back()));
       store_.set_constant(objects.back(), c.key, data.data(), c.count);
@@ -117,7 +117,7 @@ const RobotView& World::add_robot(std::string_view name, const RobotTree& tree, 
     link.joint_object = f.joint < 0 ? no_object : objects[std::size_t(f.joint)];
     r.links.push_back(link);
   }
-  r.view = {r.name, number, fnv1a(r.name), r.links};
+  r.view = {r.name, id, fnv1a(r.name), r.links};
   robot_pointers_.push_back(&r.view);
   set(r.view.base(), keys::initial_pose, start);
   return r.view;
@@ -175,12 +175,12 @@ ArrayHeader World::elements(ObjectId object, const KeyInfo& key) const {
   void* data = place(object, key);
   const Slot* s = store_.find(object, key.name);
   if (s->multiplicity == Multiplicity::list)
-    return {static_cast<ListHeader*>(data)->data, static_cast<ListHeader*>(data)->size};
-  return {data, s->count};
+    return {static_cast<ListHeader*>(data)->data, static_cast<ListHeader*>(data)->size, key.type->size};
+  return {data, s->count, key.type->size};
 }
 
 std::uint64_t World::hash(const RobotView& robot) const {
-  std::vector<ObjectId> objects = robots_[robot.number].objects;
+  std::vector<ObjectId> objects = robots_[index_of(robot.id)].objects;
   std::sort(objects.begin(), objects.end(), [&](ObjectId a, ObjectId b) { return object_name(a) < object_name(b); });
   std::uint64_t h = 0;
   for (const ObjectId o : objects) {
@@ -199,7 +199,7 @@ std::uint64_t World::hash_of_robots() const {
 std::uint64_t World::hash() const {
   std::uint64_t sum = hash_of_robots();
   for (std::uint32_t i = 0; i < object_count(); ++i)
-    if (robot_of_[i] < 0) sum += store_.hash(ObjectId{i});
+    if (robot_of_[i] == no_robot) sum += store_.hash(ObjectId{i});
   return sum;
 }
 

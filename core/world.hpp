@@ -20,9 +20,9 @@ class World {
   /// A new object; throws SetupError when the name is taken, or is none: see check_object_name. [setup]
   ObjectId add_object(std::string_view name);
   /// An object of a robot that its model does not have, such as a sensor. [setup]
-  ObjectId add_object(std::string_view name, std::uint32_t robot);
+  ObjectId add_object(std::string_view name, RobotId robot);
   /// Scenery: a body that does not move. Throws SetupError when its pose or shapes are out of range
-  /// (muro/toolkit/limits.hpp). [setup]
+  /// (muro/base/limits.hpp). [setup]
   ObjectId add_scenery(std::string_view name, const Pose& pose, std::span<const Shape> shapes);
   /// The same for a body that looks other than what it collides with.
   ObjectId add_scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
@@ -36,9 +36,9 @@ class World {
   ObjectId object(std::string_view name) const;
   std::uint32_t object_count() const { return std::uint32_t(robot_of_.size()); }
   const std::string& object_name(ObjectId id) const { return store_.object_name(id); }
-  std::int32_t robot_of(ObjectId id) const { return robot_of_[index_of(id)]; }
+  RobotId robot_of(ObjectId id) const { return robot_of_[index_of(id)]; }
   /// All objects of a robot: those of its model, then sensors and the like.
-  const std::vector<ObjectId>& objects_of(const RobotView& robot) const { return robots_[robot.number].objects; }
+  const std::vector<ObjectId>& objects_of(const RobotView& robot) const { return robots_[index_of(robot.id)].objects; }
   std::span<const RobotView* const> robots() const { return robot_pointers_; }
   const RobotView* find_robot(std::string_view name) const;
 
@@ -49,7 +49,7 @@ class World {
   PropertyStore& store() { return store_; }
   const PropertyStore& store() const { return store_; }
 
-  /// A constant. Throws SetupError when the value is out of range (muro/toolkit/limits.hpp). [setup]
+  /// A constant. Throws SetupError when the value is out of range (muro/base/limits.hpp). [setup]
   template <class T>
   void set(ObjectId object, const Key<T>& key, const T& value) {
     set_values(object, key, &value, single_value);
@@ -123,7 +123,7 @@ class World {
   ArrayHeader elements(ObjectId object, const KeyInfo& key) const;
 
   PropertyStore store_;
-  std::vector<std::int32_t> robot_of_;
+  std::vector<RobotId> robot_of_;
   std::unordered_map<std::string, ObjectId> by_name_;
   struct Robot {
     std::string name;

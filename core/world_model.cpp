@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 
 namespace muro {
 
@@ -20,14 +20,19 @@ void WorldModel::friction_rule(std::uint32_t rule) noexcept {
   friction_rule_ = static_cast<FrictionRule>(rule);
 }
 
-void WorldModel::scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
-                         std::span<const Shape> visuals) noexcept {
-  scenery_.push_back(
-      {std::string(name), pose, {collisions.begin(), collisions.end()}, {visuals.begin(), visuals.end()}});
+void WorldModel::scenery(std::string_view name, const Pose& pose, const Rows<Shape>& collisions,
+                         const Rows<Shape>& visuals) noexcept {
+  Scenery& s = scenery_.emplace_back(Scenery{std::string(name), pose, {}, {}});
+  for (std::size_t i = 0; i < collisions.size(); ++i) s.collisions.push_back(collisions.known(i));
+  for (std::size_t i = 0; i < visuals.size(); ++i) s.visuals.push_back(visuals.known(i));
 }
 
 RobotBuilder& WorldModel::model(std::string_view name, const Pose& pose) noexcept {
   return models_.emplace_back(Model{std::string(name), pose, {}}).tree;
+}
+
+void* WorldModel::find_extension(const ExtensionId& id) noexcept {
+  return id == PackageFolders::id() ? static_cast<PackageFolders*>(this) : nullptr;
 }
 
 TextId WorldModel::intern(std::string_view text) noexcept { return texts_.intern(text); }

@@ -27,13 +27,14 @@ class WorldModel final : public WorldBuilder, public PackageFolders {
   };
 
   void gravity(const Vec3& acceleration) noexcept override;
-  void scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
-               std::span<const Shape> visuals) noexcept override;
+  void scenery(std::string_view name, const Pose& pose, const Rows<Shape>& collisions,
+               const Rows<Shape>& visuals) noexcept override;
   RobotBuilder& model(std::string_view name, const Pose& pose) noexcept override;
   TextId intern(std::string_view text) noexcept override;
   void report(Severity severity, std::string_view text, int line, int column) noexcept override;
   void friction_rule(std::uint32_t rule) noexcept override;
 
+  void* find_extension(const ExtensionId& id) noexcept override;
   std::span<const PackageFolder> package_folders() const noexcept override { return packages_; }
   /// For the reader that builds it; must outlive that.
   void set_packages(std::span<const PackageFolder> packages) { packages_ = packages; }

@@ -19,7 +19,7 @@
 #include "host/process/out_of_memory.hpp"
 #include "host/process/standard_error.hpp"
 #include "host/scenario/scenario.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 
 namespace muro::host {
 

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/world.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {
@@ -27,8 +27,8 @@ T* variable(const World& world, ObjectId object, const Key<T>& key) {
 std::string problem_of(const World& world, const Placement& p) {
   if (index_of(p.object) >= world.object_count()) return fmt::format("there is no object {}", index_of(p.object));
   const std::string name = in_backquotes(world.object_name(p.object));
-  if (const std::int32_t robot = world.robot_of(p.object); robot >= 0) {
-    const RobotView& view = *world.robots()[std::size_t(robot)];
+  if (const RobotId robot = world.robot_of(p.object); robot != no_robot) {
+    const RobotView& view = *world.robots()[index_of(robot)];
     if (view.base() != p.object)
       return fmt::format("{} is a part of robot {}; a robot is put by its base, {}", name, in_backquotes(view.name),
                          in_backquotes(world.object_name(view.base())));

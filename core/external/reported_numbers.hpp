@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "muro/ext/report_entries.hpp"
-#include "muro/ext/report_numbers.hpp"
 
 namespace muro {
 
-/// Numbers that algorithms have told for the report, in the order in which they were told first.
-class ReportedNumbers final : public ReportEntries, public ReportNumbers {
+/// Numbers that algorithms have set for the report, in the order in which they were set first.
+class ReportedNumbers final : public ReportEntries {
  public:
   template <class T>
   using Named = std::vector<std::pair<std::string, T>>;
@@ -19,17 +18,14 @@ class ReportedNumbers final : public ReportEntries, public ReportNumbers {
   using Section = Named<Numbers>;
 
   void set(const ReportEntry& entry) noexcept override {
-    at(at(at(sections_, entry.section), entry.name), entry.key) = double(entry.value);
-  }
-  void set_number(const ReportNumber& number) noexcept override {
-    at(at(at(sections_, number.section), number.name), number.key) = number.value;
+    at(at(at(sections_, entry.section), entry.name), entry.key) = entry.value;
   }
   const Named<Section>& sections() const { return sections_; }
 
  private:
   template <class T>
   static T& at(Named<T>& all, std::string_view name) {
-    // the last one first: what belongs together is told in a row
+    // the last one first: numbers of one thing are set one after the other
     for (auto i = all.rbegin(); i != all.rend(); ++i)
       if (i->first == name) return i->second;
     return all.emplace_back(std::string(name), T{}).second;

@@ -37,9 +37,6 @@ void RunRequests::set_speed(double factor) noexcept {
   speed_changed_ = true;
 }
 
-void RunRequests::add_attendant(PauseAttendant& attendant) noexcept { attendants_.push_back(&attendant); }
-void RunRequests::remove_attendant(PauseAttendant& attendant) noexcept { std::erase(attendants_, &attendant); }
-
 /// Algorithms that run alone talk to the outside, and ask in the order of the run. Others belong to the simulation:
 /// they ask again in a replay, and perhaps from several threads at once.
 void RunRequests::add(Request request) noexcept {
@@ -96,7 +93,7 @@ void RunRequests::carry_out(Simulation& simulation, const std::function<bool()>&
     if (std::exchange(speed_changed_, false)) simulation.set_pacing({speed_});
     if (paused_ && pause_at_ >= 0 && simulation.now() >= pause_at_) pause_at_ = -1;
     if (!paused_ || pause_at_ >= 0 || is_over()) break;
-    for (std::size_t i = 0; i < attendants_.size(); ++i) attendants_[i]->attend();
+    for (PauseAttendant* const attendant : attendants_) attendant->attend();
     if (!has_requests_ && paused_ && pause_at_ < 0) std::this_thread::sleep_for(std::chrono::microseconds(500));
     simulation.set_pacing({speed_});  // the time of a pause is not made up for
   }

@@ -28,8 +28,6 @@ class RunRequests final : public RunControl {
   void step_for(std::int64_t ns) noexcept override;
   double speed() const noexcept override { return speed_; }
   void set_speed(double factor) noexcept override;
-  void add_attendant(PauseAttendant& attendant) noexcept override;
-  void remove_attendant(PauseAttendant& attendant) noexcept override;
   void place(const Placement& placement, std::uint64_t ticket, RequestDone* done) noexcept override;
   void set(ObjectId object, std::string_view key, std::uint32_t element, std::string_view bytes, std::uint64_t ticket,
            RequestDone* done) noexcept override;
@@ -39,6 +37,8 @@ class RunRequests final : public RunControl {
   std::uint64_t state_hash() const noexcept override;
   std::int64_t time() const noexcept override { return inputs_.time(); }
 
+  /// Calls it while the run is paused. [set-up]
+  void add_attendant(PauseAttendant& attendant) { attendants_.push_back(&attendant); }
   /// Somebody may ask for something: instants have to be told apart.
   void want() { wanted_ = true; }
   bool is_wanted() const { return wanted_; }

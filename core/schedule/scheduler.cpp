@@ -16,12 +16,7 @@ namespace muro {
 namespace {
 
 constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
-/// Task::order is twice the place of the kind, or one more: see order_of(const Description&).
-bool is_of(const Task& task, Kind kind) { return task.order / 2 == order_of(kind); }
-/// Recorders write nothing.
-bool only_looks(const Task& task) {
-  return task.writes.empty() || is_of(task, Kind::sensor) || is_of(task, Kind::sensor_error);
-}
+bool observes(const Task& task) { return task.writes.empty() || task.part() == InstantPart::observes; }
 
 }  // namespace
 
@@ -110,26 +105,26 @@ void Scheduler::find_providers() {
     for (const std::uint32_t slot : tasks_[t].reads)
       if (const auto found = writers.find(slot); found != writers.end())
         for (const TaskId w : found->second)
-          if (w != t && !(is_of(tasks_[w], Kind::level) && tasks_[t].order < tasks_[w].order))
+          if (w != t && !(tasks_[w].part() == InstantPart::switches && tasks_[t].order() < tasks_[w].order()))
             providers_[t].push_back(w);  // who runs before levels sees those of the last step
     auto& p = providers_[t];
     std::sort(p.begin(), p.end());
     p.erase(std::unique(p.begin(), p.end()), p.end());
-    std::stable_sort(p.begin(), p.end(), [&](TaskId a, TaskId b) { return tasks_[a].order < tasks_[b].order; });
+    std::stable_sort(p.begin(), p.end(), [&](TaskId a, TaskId b) { return tasks_[a].order() < tasks_[b].order(); });
   }
 }
 
-/// Collision and contact on demand belong to the steps of the motions that read what they write.
+/// Tasks on demand of InstantPart::forces belong to the steps of the motions that read what they write.
 void Scheduler::find_step_tasks() {
   belongs_to_steps_.assign(tasks_.size(), false);
   std::vector<TaskId> asking;
   for (TaskId t = 0; t < tasks_.size(); ++t)
-    if (is_of(tasks_[t], Kind::motion) && !tasks_[t].rate.on_demand()) asking.push_back(t);
+    if (tasks_[t].part() == InstantPart::moves && !tasks_[t].rate.on_demand()) asking.push_back(t);
   while (!asking.empty()) {
     const TaskId reader = asking.back();
     asking.pop_back();
     for (const TaskId p : providers_[reader]) {
-      if (belongs_to_steps_[p] || !(is_of(tasks_[p], Kind::collision) || is_of(tasks_[p], Kind::contact))) continue;
+      if (belongs_to_steps_[p] || tasks_[p].part() != InstantPart::forces) continue;
       belongs_to_steps_[p] = true;
       asking.push_back(p);
     }
@@ -141,7 +136,7 @@ bool Scheduler::is_start_of_steps() const {
   bool has_first_run = false;
   for (TaskId t = 0; t < tasks_.size(); ++t) has_first_run = has_first_run || (belongs_to_steps_[t] && runs_[t] == 0);
   return has_first_run &&
-         std::none_of(tasks_.begin(), tasks_.end(), [](const Task& t) { return is_of(t, Kind::level); });
+         std::none_of(tasks_.begin(), tasks_.end(), [](const Task& t) { return t.part() == InstantPart::switches; });
 }
 
 /// A task on demand has the longest period of those that ask for it, in every instant, so that its results do not
@@ -156,8 +151,8 @@ void Scheduler::find_periods() {
     for (TaskId t = 0; t < tasks_.size(); ++t) counts[t] = asks(tasks_[t]);
     return periods_of_asked(counts);
   };
-  const std::vector<double> of_motions = periods_by([](const Task&t) { return is_of(t, Kind::motion); }),
-                            of_writers = periods_by([](const Task&t) { return !only_looks(t); }),
+  const std::vector<double> of_motions = periods_by([](const Task& t) { return t.part() == InstantPart::moves; }),
+                            of_writers = periods_by([](const Task& t) { return !observes(t); }),
                             of_all = periods_by([](const Task&) { return true; });
   for (TaskId t = 0; t < tasks_.size(); ++t)
     if (tasks_[t].rate.on_demand())
@@ -187,7 +182,7 @@ std::vector<double> Scheduler::periods_of_asked(const std::vector<bool>& counts)
 }
 
 void Scheduler::add_providers(TaskId reader, std::vector<bool>& added, std::vector<DueTask>& due) const {
-  const bool is_step = belongs_to_steps_[reader] || is_of(tasks_[reader], Kind::motion);
+  const bool is_step = belongs_to_steps_[reader] || tasks_[reader].part() == InstantPart::moves;
   for (const TaskId p : providers_[reader]) {
     if (added[p] || (belongs_to_steps_[p] && !is_step)) continue;
     added[p] = true;
@@ -201,7 +196,7 @@ void Scheduler::add_step_tasks(const std::vector<std::size_t>& items, std::vecto
                                std::vector<DueTask>& due) const {
   for (const std::size_t i : items)
     for (const TaskId motion : items_[i]) {
-      if (!is_of(tasks_[motion], Kind::motion)) continue;
+      if (tasks_[motion].part() != InstantPart::moves) continue;
       for (const TaskId p : providers_[motion]) {
         if (!belongs_to_steps_[p] || added[p]) continue;
         added[p] = true;
@@ -218,7 +213,7 @@ std::vector<DueTask> Scheduler::due_tasks_of(const Mask& due, bool starts) const
     if (!items_[i].empty() && !tasks_[items_[i].front()].rate.on_demand() && due[group_of_item_[i]]) items.push_back(i);
   std::stable_sort(items.begin(), items.end(), [&](std::size_t a, std::size_t b) {
     const TaskId first = items_[a].front(), second = items_[b].front();
-    if (tasks_[first].order != tasks_[second].order) return tasks_[first].order < tasks_[second].order;
+    if (tasks_[first].order() != tasks_[second].order()) return tasks_[first].order() < tasks_[second].order();
     return first < second;
   });
   std::vector<DueTask> tasks;
@@ -228,7 +223,7 @@ std::vector<DueTask> Scheduler::due_tasks_of(const Mask& due, bool starts) const
     tasks.push_back({t, periods_[t]});
   };
   for (const std::size_t i : items) {
-    if (starts && tasks_[items_[i].front()].order >= 2 * order_of(Kind::sensor)) {
+    if (starts && tasks_[items_[i].front()].part() != InstantPart::completes) {
       add_step_tasks(items, added, tasks);
       starts = false;
     }

@@ -77,8 +77,8 @@ class Scheduler {
   double seconds_per_tick() const { return executor_.seconds_per_tick(); }
   Executor& executor() { return executor_; }
   const Executor& executor() const { return executor_; }
-  /// The robot that each slot of the property store belongs to; -1: none.
-  void set_slots(std::vector<std::int32_t> robot_of_slot) { robot_of_slot_ = std::move(robot_of_slot); }
+  /// The robot that each slot of the property store belongs to.
+  void set_slots(std::vector<RobotId> robot_of_slot) { robot_of_slot_ = std::move(robot_of_slot); }
   /// How the instant at `time` is divided.
   std::vector<Stage> stages_at(std::int64_t time) const;
   /// Runs these tasks now, outside of the schedule; their run counts stay.
@@ -128,7 +128,7 @@ class Scheduler {
   std::uint32_t take_instants(std::int64_t end);
 
   std::vector<Task> tasks_;
-  std::vector<std::int32_t> robot_of_slot_;
+  std::vector<RobotId> robot_of_slot_;
   Executor executor_;
   std::vector<std::uint64_t> runs_;
   std::vector<std::vector<TaskId>> items_;  ///< single tasks and sequences, as added
@@ -137,8 +137,8 @@ class Scheduler {
   std::vector<Group> groups_;
   std::vector<std::uint32_t> group_of_item_;
   std::vector<std::vector<TaskId>> providers_;  ///< per task: tasks on demand that write what it reads
-  /// Collision and contact on demand that motions ask for. They run only for these: who looks in between, or earlier in
-  /// the instant, sees what they found in the last step, and does not change it.
+  /// Tasks on demand of InstantPart::forces that motions ask for. They run only for motions: a reader in between, or earlier in
+  /// the instant, sees the results of the last step, and does not change them.
   std::vector<bool> belongs_to_steps_;
   bool starts_ = false;          ///< in the next instant one of them has its first run
   std::vector<double> periods_;  ///< s, per task; on demand: the longest of those that ask, see find_periods

@@ -94,15 +94,15 @@ using Calls = std::vector<CallWithAccesses>;
 /// Divides the phases of one task into calls, by blocks of robots.
 class TaskPartition {
  public:
-  TaskPartition(const Task& task, std::span<const std::int32_t> robot_of_slot, const std::vector<std::uint32_t>& bounds)
+  TaskPartition(const Task& task, std::span<const RobotId> robot_of_slot, const std::vector<std::uint32_t>& bounds)
       : task_(task), bounds_(bounds), of_block_(bounds.size()) {
     for (const SlotAccess& a : task.accesses) {
-      const std::int32_t robot = robot_of_slot[a.slot];
-      (robot < 0 ? of_no_robot_ : of_block_[block_of(std::uint32_t(robot))]).push_back(a);
+      const RobotId robot = robot_of_slot[a.slot];
+      (robot == no_robot ? of_no_robot_ : of_block_[block_of(index_of(robot))]).push_back(a);
     }
     in_order_ = task.robot_of_item.size() == task.items &&
                 std::is_sorted(task.robot_of_item.begin(), task.robot_of_item.end()) &&
-                (task.items == 0 || task.robot_of_item.front() >= 0);
+                (task.items == 0 || task.robot_of_item.back() != no_robot);
   }
 
   /// The calls of a phase. `common`: the accesses that all of them have, without harm to each other.
@@ -154,7 +154,7 @@ class TaskPartition {
   Range items_of(std::uint32_t first, std::uint32_t end) const {
     const auto& robots = task_.robot_of_item;
     const auto at = [&](std::uint32_t robot) {
-      return std::uint32_t(std::lower_bound(robots.begin(), robots.end(), std::int32_t(robot)) - robots.begin());
+      return std::uint32_t(std::lower_bound(robots.begin(), robots.end(), RobotId{robot}) - robots.begin());
     };
     return {at(first), at(end)};
   }
@@ -169,7 +169,7 @@ class TaskPartition {
 }  // namespace
 
 std::vector<Stage> stages_of(std::span<const DueTask> due, std::span<const Task> tasks,
-                             std::span<const std::int32_t> robot_of_slot, bool overlap) {
+                             std::span<const RobotId> robot_of_slot, bool overlap) {
   std::uint32_t robots = 0;
   for (const Task& t : tasks) robots = std::max(robots, t.robots);
   const std::vector<std::uint32_t> bounds = block_bounds(robots);

@@ -44,10 +44,10 @@ struct Stage {
 /// a task that has access to its own robots only continues the chain of each block, so that a whole team is carried
 /// through kinematics, contact and motion block by block, while its data is in the cache. The division depends on the
 /// scene alone, never on the number of threads. scheduler.hpp shows an example.
-/// `robot_of_slot`: the robot that a property belongs to, -1 for none. Without `overlap`, each phase of each due task
+/// `robot_of_slot`: the robot that a property belongs to. Without `overlap`, each phase of each due task
 /// is a stage.
 std::vector<Stage> stages_of(std::span<const DueTask> due, std::span<const Task> tasks,
-                             std::span<const std::int32_t> robot_of_slot, bool overlap = true);
+                             std::span<const RobotId> robot_of_slot, bool overlap = true);
 
 /// Where blocks of `count` robots begin, and `count`: at multiples of 8, so that SIMD lanes are full.
 std::vector<std::uint32_t> block_bounds(std::uint32_t count);

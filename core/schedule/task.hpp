@@ -8,7 +8,7 @@
 
 #include "core/running_call.hpp"
 #include "core/schedule/rate.hpp"
-#include "muro/abi.hpp"
+#include "muro/detail/abi.hpp"
 
 namespace muro {
 
@@ -27,22 +27,31 @@ inline void merge_accesses(std::vector<SlotAccess>& accesses) {
   accesses.erase(std::unique(accesses.begin(), accesses.end(), same), accesses.end());
 }
 
+/// The order of tasks of one kind.
+enum class Rank : std::uint8_t { first, second };
+constexpr int order_of(Kind kind, Rank rank) { return 2 * order_of(kind) + static_cast<int>(rank); }
+
 /// What the scheduler runs: one instance of an algorithm with its items.
 struct Task {
   std::string name;                      ///< "rovers.motion"
   std::shared_ptr<const Callee> callee;  ///< what messages say of it; null: the name alone
   abi::AlgorithmInstance* instance = nullptr;
   std::uint32_t items = 0;
-  std::vector<std::int32_t> robot_of_item;   ///< robot number; -1: none. Empty: nobody asks
+  std::vector<RobotId> robot_of_item;        ///< empty: nobody asks
   std::vector<Phase> phases = {Phase{}};     ///< one or more
   std::uint32_t robots = 0;                  ///< of the scene
   bool runs_alone = false;                   ///< runs while nothing else does, on the calling thread
   Rate rate;                                 ///< on demand when zero
   std::int64_t phase = 0;                    ///< ns, 0 or more
-  int order = 0;                             ///< tasks of one instant run by rising order, then as added
+  Kind kind = Kind::motion;                  ///< decides the order of tasks in an instant
+  Rank rank = Rank::first;                   ///< within the kind
   std::vector<std::uint32_t> reads, writes;  ///< slots of the property store: who needs what on demand
   std::vector<SlotAccess> accesses;          ///< they decide what may run at the same time
 
+  /// Tasks of one instant run by rising order, then in the order in which they were added.
+  int order() const { return order_of(kind, rank); }
+  /// The part of its kind in an instant.
+  InstantPart part() const { return info_of(kind).part; }
   /// How many elements phase number `which` works on.
   std::uint32_t length(std::uint32_t which) const {
     return phases[which].index_space == Phase::IndexSpace::robots ? robots : items;

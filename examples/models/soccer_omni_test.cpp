@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "examples/models/stand_testing.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 
 namespace muro::models {
 namespace {

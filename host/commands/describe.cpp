@@ -50,14 +50,14 @@ Json describe_schedule(const Simulation& simulation) {
   const std::vector<Task>& tasks = simulation.scheduler().tasks();
   std::vector<TaskId> ids(tasks.size());
   std::iota(ids.begin(), ids.end(), TaskId{0});
-  std::stable_sort(ids.begin(), ids.end(), [&](TaskId a, TaskId b) { return tasks[a].order < tasks[b].order; });
+  std::stable_sort(ids.begin(), ids.end(), [&](TaskId a, TaskId b) { return tasks[a].order() < tasks[b].order(); });
   Json list = Json::array();
   for (const TaskId t : ids) {
     const Task& task = tasks[t];
     Json entry = {{"name", task.name}, {"items", task.items}};
     entry["rate_hz"] = task.rate.on_demand() ? Json("on_demand") : Json(task.rate.hertz());
     entry["phase_s"] = 1e-9 * double(task.phase);
-    entry["order"] = task.order;
+    entry["order"] = task.order();
     list.push_back(entry);
   }
   return list;

@@ -90,7 +90,7 @@ void print_summary(const RunResult& result, const Simulation& simulation, const 
     if (!is_shadow(simulation, *r)) robots.push_back(r);
   double min = 1e300, max = 0, sum = 0;
   for (const RobotView* r : robots) {
-    const double d = odometer.distance(r->number);
+    const double d = odometer.distance(index_of(r->id));
     min = std::min(min, d);
     max = std::max(max, d);
     sum += d;

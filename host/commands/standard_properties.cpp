@@ -83,6 +83,10 @@ constexpr const KeyInfo* cameras[] = {
     &keys::camera_width, &keys::camera_height, &keys::camera_horizontal_fov, &keys::camera_fx,    &keys::camera_fy,
     &keys::camera_cx,    &keys::camera_cy,     &keys::camera_image,          &keys::camera_depth, &keys::camera_labels,
 };
+constexpr const KeyInfo* model_files[] = {
+    &keys::heightmap_values,       &keys::heightmap_columns, &keys::mesh_corners, &keys::model_subsystems,
+    &keys::model_subsystem_places, &keys::visual_materials,
+};
 constexpr const KeyInfo* radios[] = {
     &keys::radio_send_bytes, &keys::radio_send_size,      &keys::radio_send_receiver, &keys::radio_send_number,
     &keys::radio_received,   &keys::radio_received_bytes, &keys::radio_keep,          &keys::radio_last,
@@ -105,6 +109,8 @@ constexpr PropertyGroup groups[] = {
     {"Cameras", "The object of the sensor has them; x points forward, as in every sensor frame.", cameras},
     {"Radios", "The object of the radio has them. Control code writes what is to be sent and reads what has come.",
      radios},
+    {"Models", "A reader of models sets them on the base or on a body, for the host. A robot does not keep them.",
+     model_files},
 };
 
 }  // namespace

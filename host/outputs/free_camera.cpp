@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "host/scenario/shadows.hpp"
-#include "muro/toolkit/bounds.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/bounds.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "muro/vocabulary.hpp"
 

@@ -28,8 +28,8 @@ void Odometer::sample() {
   const bool jumped = std::exchange(jumps_, simulation_.jumps()) != simulation_.jumps();
   for (const RobotView* r : simulation_.world().robots()) {
     const Vec3& now = base_pose(simulation_, *r).position;
-    if (!jumped) distances_[r->number] += (now - last_[r->number]).norm();
-    last_[r->number] = now;
+    if (!jumped) distances_[index_of(r->id)] += (now - last_[index_of(r->id)]).norm();
+    last_[index_of(r->id)] = now;
   }
 }
 

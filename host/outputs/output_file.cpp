@@ -2,7 +2,7 @@
 #include "host/outputs/output_file.hpp"
 
 #include "core/error.hpp"
-#include "muro/toolkit/whole_file.hpp"
+#include "muro/base/whole_file.hpp"
 
 namespace muro::host {
 

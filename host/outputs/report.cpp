@@ -51,7 +51,7 @@ Json robots_report(const Simulation& simulation, const Odometer& odometer) {
   for (const RobotView* r : simulation.world().robots()) {
     const Pose& p = base_pose(simulation, *r);
     all.push_back({{"name", r->name},
-                   {"distance_m", odometer.distance(r->number)},
+                   {"distance_m", odometer.distance(index_of(r->id))},
                    {"position_m", {p.position.x(), p.position.y(), p.position.z()}},
                    {"yaw_rad", yaw_of(p.orientation)},
                    {"state_hash", fmt::format("{:016x}", simulation.world().hash(*r))}});

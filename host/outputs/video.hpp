@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "muro/toolkit/whole_file.hpp"
+#include "muro/base/whole_file.hpp"
 
 namespace muro::host {
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "host/scenario/defaults.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
@@ -39,7 +39,7 @@ void Algorithms::add_to_scene(const Subsystem& s) {
       scene_kinematics_ = &s;
       std::vector<Item> items;
       for (const RobotView* r : simulation_.world().robots())
-        if (r->links.size() > 1 && has_kinematics_.count(r->number) == 0) items.push_back({r, r->base()});
+        if (r->links.size() > 1 && has_kinematics_.count(index_of(r->id)) == 0) items.push_back({r, r->base()});
       if (!items.empty()) add(s, s.name, std::move(items));
       break;
     }
@@ -89,7 +89,7 @@ void Algorithms::add(const Subsystem& s, const std::string& name, std::vector<It
   record_reads(*d, s);
   if (d->kind == Kind::kinematics)
     for (const Item& item : setup.items)
-      if (item.robot) has_kinematics_.insert(item.robot->number);
+      if (item.robot) has_kinematics_.insert(index_of(item.robot->id));
   Added added{0, setup.rate, setup.phase};
   added.number = simulation_.add(std::move(setup));
   added_[name].push_back(added);
@@ -129,7 +129,7 @@ void Algorithms::add_default(const std::string& name, const std::string& use, co
 void Algorithms::add_kinematics() {
   if (is_switched_off("kinematics")) return;
   for (const RobotView* r : simulation_.world().robots())
-    if (r->links.size() > 1 && has_kinematics_.count(r->number) == 0)
+    if (r->links.size() > 1 && has_kinematics_.count(index_of(r->id)) == 0)
       add_default("kinematics", "kinematics.direct", "robots of several bodies need kinematics", {Item{r, r->base()}});
 }
 

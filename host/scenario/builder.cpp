@@ -28,8 +28,8 @@
 #include "host/scenario/terrain.hpp"
 #include "host/scenario/unreadable_meshes.hpp"
 #include "host/scenario/world_file.hpp"
-#include "muro/toolkit/bounds.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/bounds.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {
@@ -302,11 +302,11 @@ void print_line(LogLevel level, std::string_view text) {
 std::string place_of_robot(const BuiltScenario& built, const std::string& body) {
   const World& world = built.simulation->world();
   const ObjectId object = world.find_object(body);
-  std::int32_t number = object == no_object ? -1 : world.robot_of(object);
+  const RobotId robot = object == no_object ? no_robot : world.robot_of(object);
+  std::size_t end = 0;
   for (const RobotTemplate& t : built.scenario.robots) {
-    const auto count = std::int32_t(t.subsystems.size());
-    if (number >= 0 && number < count) return t.placement.location.text();
-    number -= count;
+    end += t.subsystems.size();
+    if (index_of(robot) < end) return t.placement.location.text();
   }
   return "";
 }

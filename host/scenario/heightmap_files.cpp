@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
-#include "muro/heightmap.hpp"
+#include "muro/vocabulary/model.hpp"
 
 namespace muro::host {
 

@@ -5,7 +5,7 @@
 
 #include "host/names.hpp"
 #include "muro/toolkit/joint_drives.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 
 namespace muro::host {
 

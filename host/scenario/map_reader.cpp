@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "host/names.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 
 namespace muro::host {
 

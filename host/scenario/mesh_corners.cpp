@@ -5,8 +5,8 @@
 
 #include "core/error.hpp"
 #include "core/point_bounds.hpp"
-#include "muro/mesh_corners.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/vocabulary/model.hpp"
+#include "muro/base/bounds.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {

@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "host/scenario/yaml.hpp"
-#include "muro/toolkit/printable.hpp"
+#include "muro/base/printable.hpp"
 
 namespace muro::host {
 

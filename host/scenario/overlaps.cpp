@@ -97,7 +97,7 @@ std::vector<bool> takes_hulls_of_scenery(const Simulation& simulation) {
     const AlgorithmSetup& setup = instance->setup();
     for (std::size_t i = 0; i < setup.items.size(); ++i)
       if (setup.items[i].robot)
-        all[setup.items[i].robot->number] = is_convex(
+        all[index_of(setup.items[i].robot->id)] = is_convex(
             *instance, "meshes", true, setup.item_setups.empty() ? setup.parameters : setup.item_setups[i].parameters);
   }
   return all;
@@ -117,7 +117,7 @@ class Still {
     if (hulls) scenery_is_hulls_ = takes_hulls_of_scenery(simulation);
     still_.set_log([](LogLevel, std::string_view) {});
     for (std::uint32_t i = 1; i < original_.object_count(); ++i)
-      if (original_.robot_of(ObjectId{i}) < 0) add_scenery(ObjectId{i});
+      if (original_.robot_of(ObjectId{i}) == no_robot) add_scenery(ObjectId{i});
     for (const RobotView* robot : original_.robots())
       if (original_.constants(robot->base(), keys::shadow_of).empty()) add_robot(*robot);
     use_collision();
@@ -196,7 +196,7 @@ class Still {
     const bool is_placed = moment_.placed && moment_.placed->object == robot.base();
     const bool heeds = moment_.placed ? is_placed : heeds_contacts(original_, robot);
     const bool heeds_heightmaps = heeds && heeds_contacts(original_, robot);
-    Names names{heeds, heeds_heightmaps, hulls_ && scenery_is_hulls_[robot.number], {}, {}};
+    Names names{heeds, heeds_heightmaps, hulls_ && scenery_is_hulls_[index_of(robot.id)], {}, {}};
     std::vector<Shape> shapes;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const std::span<const Shape> of_link = original_.constants(robot.links[i].object, keys::collision_shapes);
@@ -321,10 +321,10 @@ std::string overlap_of(Simulation& simulation, ShapeFiles& files, const muro::Pl
         exact.has_meshes() ? exact.overlaps(1, Still(simulation, files, true, moment).find()) : exact.overlaps(1, {});
     if (all.deepest.empty() || all.deepest.front().depth < most_depth) return "";
     const Overlap& deepest = all.deepest.front();
-    const std::int32_t robot = simulation.world().robot_of(placement.object);
+    const RobotId robot = simulation.world().robot_of(placement.object);
     const auto is_own = [&](const std::string& name) {
       const ObjectId object = simulation.world().find_object(name);
-      return object != no_object && robot >= 0 && simulation.world().robot_of(object) == robot;
+      return object != no_object && robot != no_robot && simulation.world().robot_of(object) == robot;
     };
     return fmt::format("{} by {:.2g} m", in_backquotes(is_own(deepest.first) ? deepest.second : deepest.first),
                        deepest.depth);

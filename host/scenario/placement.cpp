@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "host/names.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 #include "muro/toolkit/rotations.hpp"
 
 namespace muro::host {

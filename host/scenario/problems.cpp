@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "host/names.hpp"
-#include "muro/toolkit/printable.hpp"
+#include "muro/base/printable.hpp"
 
 namespace muro::host {
 

@@ -17,8 +17,8 @@
 #include "host/scenario/shape_reader.hpp"
 #include "host/scenario/subsystem_reader.hpp"
 #include "host/scenario/variants.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/did_you_mean.hpp"
+#include "muro/base/limits.hpp"
 
 namespace muro::host {
 

@@ -13,7 +13,7 @@
 #include "host/scenario/shape_reader.hpp"
 #include "host/scenario/subsystem_reader.hpp"
 #include "host/scenario/yaml.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 
 namespace muro::host {
 

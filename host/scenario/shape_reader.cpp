@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/missing_file.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 
 namespace muro::host {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/extent_along.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 #include "muro/toolkit/link_pose.hpp"
 #include "muro/vocabulary.hpp"
 
@@ -88,7 +88,7 @@ void Terrain::add(const Shape& shape, const std::string& file, const Pose& pose)
 void Terrain::add_scenery(const World& world) {
   for (std::uint32_t i = 1; i < world.object_count(); ++i) {
     const ObjectId object{i};
-    if (world.robot_of(object) >= 0) continue;
+    if (world.robot_of(object) != no_robot) continue;
     const Pose* const pose = world.find_constant(object, keys::pose);
     if (!pose) continue;
     for (const Shape& s : world.constants(object, keys::collision_shapes))

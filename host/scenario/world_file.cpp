@@ -8,7 +8,7 @@
 
 #include "host/names.hpp"
 #include "muro/scene.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {

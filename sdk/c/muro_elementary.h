@@ -7,7 +7,7 @@
  * They are those of SLEEF without fused multiply-add, at most 1 ulp from the true value, with the special values of C
  * (annex F); angles are in rad. Functions of <math.h> with exact results are equal everywhere by themselves and have
  * no namesake here: sqrt, fabs, floor, ceil, trunc, round, nearbyint, fmod, remainder, fmin, fmax, fma.
- * muro/toolkit/elementary.hpp offers the same to plugins, bit for bit.
+ * muro/base/elementary.hpp offers the same to plugins, bit for bit.
  */
 #ifndef MURO_ELEMENTARY_H
 #define MURO_ELEMENTARY_H

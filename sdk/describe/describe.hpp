@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "muro/abi.hpp"
+#include "muro/detail/abi.hpp"
 #include "muro/detail/names.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 
 namespace muro::abi {
 

@@ -10,18 +10,18 @@
 
 namespace muro {
 
-/// A user's mistake, or a failure of a device, found by an algorithm. Say what, which value and what to
-/// do; the host adds the names of algorithm and robot, the simulated time and the line of the scenario.
+/// A user's mistake, or a failure of a device, found by an algorithm. The text says what is wrong, which value it is and
+/// what to do; the host adds the names of algorithm and robot, the simulated time and the line of the scenario.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The base of every algorithm: motion, sensor, controller, recorder.
+/// The base class of every algorithm: motion, sensor, controller, recorder.
 ///
-/// An algorithm is created, connected once, started once and then stepped, many times. All of its
-/// state lies in properties; members are handles, parameters and caches that can be built again.
-/// Any of these functions may throw muro::Error; it ends at the plugin's boundary.
+/// An algorithm is created, connected once, started once and then stepped many times. All of its state lies in
+/// properties; members are handles, parameters and caches that can be built again. Any of these functions may throw
+/// muro::Error; at the plugin's boundary it becomes a message.
 class Algorithm {
  public:
   Algorithm() = default;
@@ -33,32 +33,38 @@ class Algorithm {
   /// files. [setup]
   virtual void connect(Connector& connector) = 0;
 
-  /// Binds what is looked up by its name or by what others have made of it, when all algorithms have connected, in the
-  /// order of by_name_order: for controllers, then for motions and others that depend on what is written or read, then
-  /// for recorders and views. Creates no property that a kind before it could look for. [setup]
+  /// Binds properties that are found by their names or by how others use them. Called when all algorithms have
+  /// connected, in the order of by_name_order: controllers, then motions and others that depend on what is written or
+  /// read, then recorders and views. Creates no property that an earlier kind could look for. [setup]
   virtual void connect_by_name(Connector& connector) { static_cast<void>(connector); }
 
-  /// All handles may be read. Opens what the algorithm needs to run; also called again at a reset. [setup]
+  /// Opens what the algorithm needs to run. Handles may be read. Called again at a reset. [setup]
   virtual void start() {}
 
-  /// How a step is divided. Asked once, after connect. None: an algorithm that is `batched` has one phase over its
-  /// items, which reads all; anything else runs in one call. [setup]
+  /// Returns the phases of a step. Called once, after connect. Without phases an algorithm that is `batched` has one
+  /// phase over its items, which reads all; any other runs in one call. [setup]
   virtual std::span<const Phase> phases() const { return {}; }
 
-  /// Serves the elements of `range` at `step.time`: brings their outputs up to date, or, for a motion
-  /// model, carries their state from `step.time` to `step.time + step.dt`. Does not allocate once warm. [step, any
-  /// thread]
+  /// Serves the elements of `range` at `step.time`: brings their outputs up to date, or, in a motion, carries their
+  /// state from `step.time` to `step.time + step.dt`. Does not allocate after warm-up. [step, any thread]
   virtual void step(const Step& step, Range range) = 0;
 
-  /// Another motion has moved robot `item` so far; from the next step on this one does. The state lies in the
-  /// properties; here goes what only this motion keeps beside them. [between steps]
+  /// Takes robot `item` over from another motion: from the next step on this one moves it. The state lies in the
+  /// properties; here a motion sets up what it keeps beside them. [between steps]
   virtual void on_handover(std::uint32_t item) { static_cast<void>(item); }
 
-  /// A snapshot has replaced the properties: rebuild what was kept beside them. [between steps]
+  /// Builds again what is kept beside the properties, after a snapshot has replaced them. [between steps]
   virtual void restored() {}
 
-  /// The run is over or is about to be read by the user: flush files. [between steps]
+  /// Flushes files: the run is over, or its user is about to read them. [between steps]
   virtual void finish() {}
+
+  /// Returns the algorithm's own interface of this name, version and layout (`id == Interface::id()`), or null. The host
+  /// asks once, after start; the interface is valid as long as the algorithm. [setup]
+  virtual void* find_extension(const ExtensionId& id) {
+    static_cast<void>(id);
+    return nullptr;
+  }
 };
 
 }  // namespace muro

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "muro/extension.hpp"
 #include "muro/handles.hpp"
 #include "muro/key.hpp"
 #include "muro/parameter.hpp"
@@ -10,16 +11,17 @@
 
 namespace muro {
 
-/// What an instance of an algorithm is connected to: a robot (or none, for the scene) and the object
-/// of that robot that the scenario names: the base for a motion model, the sensor's own object for a sensor.
+/// The unit that an algorithm serves: a robot (or none, for the scene) and the object of that robot that the scenario
+/// names: the base for a motion, the sensor's own object for a sensor. May grow at its end.
 struct Item {
   const RobotView* robot = nullptr;
   ObjectId object = world_object;
-  /// Place of this algorithm among the motions that the robot lists: it moves the robot while `motion.level` says so.
+  /// Index of this algorithm among the motions that the robot lists: it moves the robot while `motion.level` has this
+  /// value.
   std::uint32_t level = 0;
 };
 
-/// What the steps of an algorithm do with a property.
+/// Use of a property by the steps of an algorithm.
 enum class Access : std::uint8_t {
   read,
   write,
@@ -27,38 +29,38 @@ enum class Access : std::uint8_t {
   read_sum,    ///< reads all contributions
 };
 
-/// Whether a request creates the property, and what it then is for a snapshot.
+/// Whether a request creates the property, and its part in a snapshot.
 enum class Creation : std::uint8_t {
-  none,     ///< somebody else creates it
+  none,     ///< another algorithm creates it
   state,    ///< part of the state: saved, restored, hashed
   derived,  ///< can be computed again from the state
 };
 
-/// How an algorithm uses a property.
+/// Use of a property by an algorithm.
 struct Usage {
   Access access = Access::read;
   Creation creation = Creation::none;
-  bool is_optional = false;  ///< it is no error when nobody reads what is written
+  bool is_optional = false;  ///< no error when nobody reads what is written
 
   bool operator==(const Usage&) const = default;
 };
 
 /// The usages that the functions of Connector stand for.
 namespace usage {
-inline constexpr Usage read{Access::read};                    ///< a constant, or written by another
+inline constexpr Usage read{Access::read};                    ///< a constant, or written by another algorithm
 inline constexpr Usage input{Access::read, Creation::state};  ///< has a value even if nobody writes it
 inline constexpr Usage variable{Access::write, Creation::state};
 inline constexpr Usage derived{Access::write, Creation::derived};
-inline constexpr Usage write{Access::write};  ///< created by who reads it: a command
+inline constexpr Usage write{Access::write};  ///< a command: its reader creates it
 inline constexpr Usage optional_output{Access::write, Creation::none, true};
 inline constexpr Usage accumulate{Access::accumulate, Creation::derived};
 inline constexpr Usage read_sum{Access::read_sum};
 }  // namespace usage
 
-/// Whether a property is one value, an array of a fixed length or a list of a changing one.
+/// Whether a property is one value, an array of a fixed length or a list of a changing length.
 enum class Multiplicity : std::uint8_t { single, array, list };
 
-/// A property found by its name at set-up.
+/// A property found by its name at set-up. May grow at its end.
 struct FoundProperty {
   ObjectId object = no_object;
   const KeyInfo* key = nullptr;
@@ -70,19 +72,16 @@ struct FoundProperty {
 
 enum class LogLevel : std::uint8_t { debug, info, warning, error };
 
-/// An extension: an interface that a host may offer beside the contract. Another version is another interface.
-struct ExtensionId {
-  std::string_view name;  ///< "muro.Inspection"
-  std::uint32_t version = 0;
-  std::uint32_t layout = 0;  ///< of its structs and functions: the stamp of this version, see detail/layout.hpp
-};
+/// Elements of a constant array: Rows for types that may grow (Shape), else a span.
+template <class T>
+using ConstantArray = std::conditional_t<value_type<T>.grows, Rows<T>, std::span<const T>>;
 
-/// What the host does for algorithms at any time. [any thread]
+/// Services of the host for algorithms, at any time. [any thread]
 class Host {
  public:
   virtual void log(LogLevel level, std::string_view text) noexcept = 0;
-  /// The extension of this name, version and layout. Null where the host has it not; it logs why when it has another
-  /// version, or one with another layout. [setup]
+  /// Returns the extension of this name, version and layout, or null. Logs the reason when the host has another version,
+  /// or one with another layout. [setup]
   virtual void* find_extension(const ExtensionId& id) noexcept {
     static_cast<void>(id);
     return nullptr;
@@ -94,39 +93,40 @@ class Host {
 
 /// Connects one instance of an algorithm to the data of the simulation. [setup]
 ///
-/// Requests may name properties that do not exist yet; what is missing, doubled or of another type or
-/// unit is reported when all algorithms are connected, with the names of everyone involved. So every
-/// request succeeds here, and handles may be read from `start()` on.
+/// Requests may name properties that do not exist yet, so every request succeeds here. When all algorithms are connected
+/// the host reports what is missing, doubled, or of another type, unit or role, with the names of all involved. Handles
+/// may be read from `start()` on.
 class Connector {
  public:
   // --- what this instance serves
-  virtual std::span<const Item> items() const noexcept = 0;
+  virtual Rows<Item> items() const noexcept = 0;
   virtual const Parameters& parameters() const noexcept = 0;
-  /// Of item `i`: they differ among the robots of a world alone, see Capability::world.
+  /// Returns the parameters of item `i`. They differ among the robots of a world only, see Capability::world.
   virtual const Parameters& parameters_of(std::uint32_t i) const noexcept = 0;
   virtual Host& host() const noexcept = 0;
-  /// Keys the random numbers of item `i`: depends on the names of robot and subsystem only.
+  /// Returns the key of the random numbers of item `i`, which depends on the names of robot and subsystem only.
   virtual std::uint64_t random_key(std::uint32_t i) const noexcept = 0;
-  /// Hz, of the steps of this instance; 0: on demand, with the period of who reads.
+  /// Rate of the steps of this instance, Hz; 0: on demand, with the period of its reader.
   virtual double rate() const noexcept = 0;
-  /// A path of the scenario (relative to its file) as an absolute one. Valid until connect returns.
+  /// Returns a path of the scenario (relative to its file) as an absolute path. Valid until connect returns.
   virtual std::string_view resolve_path(std::string_view path) const noexcept = 0;
 
   // --- the world
   virtual std::uint32_t object_count() const noexcept = 0;
   virtual std::string_view object_name(ObjectId object) const noexcept = 0;
-  /// no_object when there is none. Names: "robot/part"; see docs/scenario.md.
+  /// Returns the object of this name, "robot/part", or no_object.
   virtual ObjectId find_object(std::string_view name) const noexcept = 0;
   virtual std::span<const RobotView* const> robots() const noexcept = 0;
-  /// Number of the robot that the object is part of; -1 for scenery.
-  virtual std::int32_t robot_of(ObjectId object) const noexcept = 0;
+  /// Returns the robot that the object is part of; no_robot for scenery.
+  virtual RobotId robot_of(ObjectId object) const noexcept = 0;
   virtual std::string_view text(TextId id) const noexcept = 0;
-  /// All properties so far of one object, in order of creation: in `connect_by_name` those of all that have connected,
-  /// and of the kinds before in by_name_order. Valid until the next call.
-  virtual std::span<const FoundProperty> properties(ObjectId object) const noexcept = 0;
-  /// Whether an algorithm that is connected so far uses the property in this way. In `connect` that depends on the
-  /// order in which kinds connect (see kind_infos). In `connect_by_name` all have connected, and of what is bound by
-  /// name that of the kinds before is known (see by_name_order): motions know what controllers write and read.
+  /// Returns the properties of one object that exist so far, in order of creation. In `connect_by_name` these are the
+  /// properties that all algorithms have made in `connect`, and earlier kinds in `connect_by_name`. Valid until the next
+  /// call.
+  virtual Rows<FoundProperty> properties(ObjectId object) const noexcept = 0;
+  /// Whether an algorithm that is connected so far uses the property in this way. In `connect` the answer depends on the
+  /// order in which kinds connect (see kind_infos). In `connect_by_name` all algorithms have connected, and the bindings
+  /// by name of earlier kinds are known (see by_name_order): motions know what controllers write and read.
   virtual bool is_used(ObjectId object, const KeyInfo& key, Usage usage) const noexcept = 0;
 
   // --- constants, readable at once
@@ -137,9 +137,13 @@ class Connector {
     return *static_cast<const T*>(found.data);
   }
   template <class T>
-  std::span<const T> constant_array(ObjectId object, const Key<T>& key) const {
+  ConstantArray<T> constant_array(ObjectId object, const Key<T>& key) const {
     const ArrayHeader found = constant_raw(object, key);
-    return {static_cast<const T*>(found.data), found.size};
+    const auto* const first = static_cast<const T*>(found.data);
+    if constexpr (value_type<T>.grows)
+      return Rows<T>(first, found.size, found.element_size);
+    else
+      return std::span<const T>(first, found.size);
   }
   /// Adds a constant to an object of this instance's robot or sensor.
   template <class T>
@@ -168,8 +172,8 @@ class Connector {
   SumIn<T> read_sum(ObjectId object, const Key<T>& key) {
     return SumIn<T>(bind(object, key, usage::read_sum, Multiplicity::single, 1, nullptr));
   }
-  /// Untyped: for recorders and controllers, which learn the type when they run.
-  /// The address of the value, of the ArrayHeader or ListHeader, or of the SumHeader of a sum.
+  /// Returns the address of the value, of the ArrayHeader or ListHeader, or of the SumHeader of a sum: for recorders and
+  /// controllers, which learn the type when they run.
   const void* read_any(const FoundProperty& p) {
     return bind(p.object, *p.key, p.is_sum ? usage::read_sum : usage::read, p.multiplicity, p.count, nullptr);
   }
@@ -214,7 +218,7 @@ class Connector {
   void* write_any(const FoundProperty& p) {
     return bind(p.object, *p.key, usage::write, p.multiplicity, p.count, nullptr);
   }
-  /// `size` bytes of state on `object` under a name of their own, for state that only its owner understands.
+  /// Returns `size` bytes of state on `object` under a name of their own: state that only its owner understands.
   virtual void* state_block(ObjectId object, std::string_view name, std::uint32_t size) noexcept = 0;
 
  protected:
@@ -225,7 +229,7 @@ class Connector {
   ~Connector() = default;
 
  private:
-  /// Until somebody gives a value, it is that of a default-constructed T.
+  /// The value is that of a default-constructed T until somebody gives one.
   template <class T>
   Out<T> bind_default(ObjectId object, const Key<T>& key, Usage usage) {
     const T value{};

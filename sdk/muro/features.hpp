@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What motions can do: declared by each, tested for each, and compared with what a robot uses before a run.
+// Abilities of motions. Each motion declares them, tests check them, and a host compares them with what a robot uses.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Typed access to properties. A handle is one pointer: reading a property in a step costs one load.
-// Handles are given out while connecting and stay valid until the simulation ends.
+// Typed access to properties. A handle is one pointer: to read a property in a step costs one load. Connector gives out
+// handles; they stay valid until the simulation ends.
 #pragma once
 
 #include <cassert>
@@ -9,20 +9,21 @@
 
 namespace muro {
 
-/// Where the elements of an array property lie.
+/// Elements of an array property in memory.
 struct ArrayHeader {
   void* data = nullptr;
   std::uint64_t size = 0;
+  std::uint64_t element_size = 0;  ///< bytes from one element to the next
 };
 
-/// Where the elements of a list property lie. The store owns the memory and lets it grow.
+/// Elements of a list property in memory. The store owns the memory and lets it grow.
 struct ListHeader {
   void* data = nullptr;
   std::uint64_t size = 0;
   std::uint64_t capacity = 0;
   void (*grow)(ListHeader*, std::uint64_t wanted) = nullptr;
   std::uint64_t element_size = 0;
-  std::uint64_t revision = 0;  ///< how often the elements were chosen anew
+  std::uint64_t revision = 0;  ///< counts how often the list was cleared
 };
 
 /// The slots of a sum property, in registration order.
@@ -61,8 +62,8 @@ class Out {
   T* place_ = nullptr;
 };
 
-/// One contribution to a property that several algorithms add to. Assign it in each step: it keeps its value until
-/// then.
+/// One contribution to a property that several algorithms add to. Assign it in each step: it keeps its value between
+/// steps.
 template <class T>
 using Sum = Out<T>;
 
@@ -111,8 +112,8 @@ class ArrayOut {
   ArrayHeader* header_ = nullptr;
 };
 
-/// Reads a list whose length changes from step to step. As long as `revision()` and the length are the same, so is what
-/// each element stands for (the bodies of a contact, say), while its numbers may change.
+/// Reads a list whose length changes from step to step. While `revision()` and the length stay the same, each element
+/// describes the same thing (a contact of the same bodies, for example); its numbers may change.
 template <class T>
 class ListIn {
  public:
@@ -126,8 +127,9 @@ class ListIn {
   const ListHeader* header_ = nullptr;
 };
 
-/// Writes a list whose length changes from step to step. Grows by doubling, so a run soon stops allocating. Who changes
-/// elements in place leaves them what they stand for, else clears the list first.
+/// Writes a list whose length changes from step to step. Its memory doubles when it is full, so a run soon stops
+/// allocating. A writer may change the numbers of elements in place; it clears the list when elements describe other
+/// things than before.
 template <class T>
 class ListOut {
  public:

@@ -8,13 +8,12 @@ namespace muro {
 /// Count of a constant that is a single value, where an array would give its number of elements.
 inline constexpr std::uint32_t single_value = 0xffffffffu;
 
-/// What the set-up check and a hand-over between motions expect of a property.
+/// Role of a property in the set-up check and in a hand-over between motions. All who declare a key give it one role.
 enum class Role : std::uint8_t {
-  state,    ///< somebody must write what somebody reads
-  command,  ///< as state, and somebody must read what is written: a command that no level uses is an error
-  /// As state, but it tells of the motion rather than of the robot: it is zero, a list of it empty, whenever a motion
-  /// that does not write it moves the robot. Everything else stays as the motion before has left it
-  /// (Algorithm::on_handover).
+  state,    ///< an error when it is read and not written
+  command,  ///< an error when it is read and not written, or written and not read: a command that no level uses
+  /// State of the motion rather than of the robot. It is zero, a list of it empty, while a motion that does not write it
+  /// moves the robot; all other properties stay as the previous motion has written them (Algorithm::on_handover).
   motion_trait,
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a user can set on an algorithm, and the values that were set.
+// Settings of an algorithm: their descriptions and their values.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,14 @@
 #include <string>
 #include <string_view>
 
+#include "muro/rows.hpp"
+
 namespace muro {
 
 enum class ParameterType : std::uint8_t { real, integer, boolean, text, reals, texts };
 
 /// One parameter as its author describes it. Write it with the makers below:
-/// `real("max_speed", "m/s", 2.0, "fastest commanded motion").between(0, 100)`.
+/// `real("max_speed", "m/s", 2.0, "fastest commanded motion").between(0, 100)`. May grow at its end.
 struct Parameter {
   std::string_view name;  ///< snake_case
   ParameterType type = ParameterType::real;
@@ -73,7 +75,7 @@ constexpr Parameter texts(std::string_view name, std::string_view doc) {
   return {.name = name, .type = ParameterType::texts, .doc = doc};
 }
 
-/// The value of one parameter; which member counts is told by the parameter's type.
+/// The value of one parameter; the parameter's type says which member holds it. May grow at its end.
 struct ParameterValue {
   std::string_view name;
   double number = 0;
@@ -87,7 +89,7 @@ struct ParameterValue {
 class Parameters {
  public:
   Parameters() = default;
-  explicit Parameters(std::span<const ParameterValue> values) : values_(values) {}
+  explicit Parameters(const Rows<ParameterValue>& values) : values_(values) {}
 
   double real(std::string_view name) const { return at(name).number; }
   std::int64_t integer(std::string_view name) const { return std::int64_t(at(name).number); }
@@ -103,7 +105,7 @@ class Parameters {
       if (v.name == name) return v;
     throw std::logic_error("parameter `" + std::string(name) + "` is not in the algorithm's description");
   }
-  std::span<const ParameterValue> values_;
+  Rows<ParameterValue> values_;
 };
 
 }  // namespace muro

@@ -12,13 +12,13 @@ namespace muro {
 /// `T` is default-constructible and derives from Algorithm.
 template <class T>
 constexpr abi::AlgorithmEntry algorithm(const Description& description) {
-  return {&description, &abi::detail::make<abi::AlgorithmInstance, abi::detail::AlgorithmOf<T>>};
+  return {&description, &abi::detail::make<abi::AlgorithmInstance, abi::detail::AlgorithmOf<T>>, sizeof description};
 }
 
 /// `T` is default-constructible and derives from ModelReader.
 template <class T>
 constexpr abi::ReaderEntry model_reader(const ReaderDescription& description) {
-  return {&description, &abi::detail::make<abi::ReaderInstance, abi::detail::ReaderOf<T>>};
+  return {&description, &abi::detail::make<abi::ReaderInstance, abi::detail::ReaderOf<T>>, sizeof description};
 }
 
 struct PluginInfo {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "muro/object.hpp"
+#include "muro/rows.hpp"
 
 namespace muro {
 
@@ -19,32 +20,32 @@ struct JointLimits {
   double effort = std::numeric_limits<double>::infinity();    ///< N m or N
   double damping = 0;                                         ///< N m s/rad or N s/m
   double friction = 0;                                        ///< N m or N
-  double armature = 0;  ///< kg m^2 or kg: inertia of the drive's rotor, as the joint feels it (MuJoCo's)
+  double armature = 0;  ///< kg m^2 or kg: inertia of the drive's rotor at the joint (MuJoCo)
 };
 
 enum class JointKind : std::uint8_t { fixed, revolute, prismatic };
 
-/// One rigid body of the flattened tree with the joint that leads to it. Fixed translations,
-/// rotations and forks are folded into `origin`.
+/// One rigid body of the flattened tree with the joint that leads to it. `origin` includes fixed translations, rotations
+/// and forks. May grow at its end.
 struct Link {
   ObjectId object = no_object;  ///< holds pose, twist, inertial, shapes
-  std::int32_t parent = -1;     ///< index of the link it hangs on, always smaller than its own; -1: it is the base
+  std::int32_t parent = -1;     ///< index of the parent link, always smaller than its own; -1: it is the base
   JointKind joint = JointKind::fixed;
-  ObjectId joint_object = no_object;  ///< holds joint.position and so on; none for fixed
+  ObjectId joint_object = no_object;  ///< holds joint.position and so on; no_object: a fixed joint
   Pose origin;                        ///< of this link's frame in its parent's with the joint at 0
   Vec3 axis = Vec3::UnitX();          ///< unit, in this link's frame
   JointLimits limits;
-  std::int32_t mimic = -1;  ///< link whose joint this one follows: q = offset + multiplier * q_mimic
+  std::int32_t mimic = -1;  ///< index of the link whose joint this one follows: q = offset + multiplier * q_mimic
   double mimic_multiplier = 1;
   double mimic_offset = 0;
 };
 
-/// A robot as algorithms see it. Link 0 is the base; children follow their parents, depth first.
+/// A robot as algorithms see it. Link 0 is the base; children follow their parents, depth first. May grow at its end.
 struct RobotView {
   std::string_view name;
-  std::uint32_t number = 0;  ///< dense, from 0
-  std::uint64_t key = 0;     ///< from the name alone: keys random numbers
-  std::span<const Link> links;
+  RobotId id = no_robot;
+  std::uint64_t key = 0;  ///< from the name alone: keys random numbers
+  Rows<Link> links;
 
   ObjectId base() const { return links.front().object; }
 };

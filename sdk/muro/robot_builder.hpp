@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "muro/extension.hpp"
 #include "muro/key.hpp"
 #include "muro/robot.hpp"
 
@@ -10,11 +11,11 @@ enum class Severity : std::uint8_t {
   note,
   warning,
   error,
-  lost_collision,  ///< a warning: a shape that others would touch is left out; an error with `--strict`
+  lost_collision,  ///< a warning: a collision shape is left out; an error with `--strict`
 };
 
-/// Builds a robot's tree depth first (MuRoSimF, Section 2.1). Each call adds one block behind the
-/// last one; `fork` opens two branches, each closed by `end`:
+/// Builds a robot's tree depth first (MuRoSimF, Section 2.1). Each call adds one block behind the last block; `fork`
+/// opens two branches, each closed by `end`:
 ///
 ///     builder.base("chassis");
 ///     builder.set(keys::inertial, {...});             // a constant of the last part
@@ -27,8 +28,8 @@ enum class Severity : std::uint8_t {
 ///       ...
 ///     builder.end();
 ///
-/// Names are unique among the parts of a robot. Misuse is collected and reported by the host after
-/// the reader returns; no call throws. Callable while a ModelReader reads, or from set-up code.
+/// Names are unique among the parts of a robot. The host collects misuse and reports it after the reader returns; no call
+/// throws. Callable while a ModelReader reads, or from set-up code.
 class RobotBuilder {
  public:
   virtual void base(std::string_view name) noexcept = 0;
@@ -46,8 +47,8 @@ class RobotBuilder {
 
   /// Keeps a text for the life of the simulation.
   virtual TextId intern(std::string_view text) noexcept = 0;
-  /// Something in the model that its user should know; an error makes the model unusable.
-  /// `line` and `column` count from 1; 0 when unknown.
+  /// Reports something in the model to its user; an error makes the model unusable. `line` and `column` count from 1;
+  /// 0 when unknown.
   virtual void report(Severity severity, std::string_view text, int line = 0, int column = 0) noexcept = 0;
 
   /// A constant of the last part (base, joint or body).
@@ -63,6 +64,15 @@ class RobotBuilder {
  protected:
   /// `count`: elements of an array, or single_value.
   virtual void set_raw(const KeyInfo& key, const void* data, std::uint32_t count) noexcept = 0;
+
+ public:
+  /// Returns the host's extension of this name, version and layout, or null. [setup]
+  virtual void* find_extension(const ExtensionId& id) noexcept {
+    static_cast<void>(id);
+    return nullptr;
+  }
+
+ protected:
   ~RobotBuilder() = default;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scene as collision and rays see it: shapes at their places and a hierarchy of boxes over them.
+// The scene for collision and rays: shapes at their places, and a hierarchy of boxes over them.
 #pragma once
 
 #include <limits>
@@ -30,10 +30,10 @@ struct Collider {
   const Shape* shape = nullptr;
   const Pose* body_pose = nullptr;  ///< of the body in the world, as it is now
   ObjectId body = no_object;        ///< the object that has the shape
-  std::int32_t robot = -1;          ///< number of the robot it belongs to; -1: static scenery
+  RobotId robot = no_robot;         ///< no_robot: static scenery
   std::uint32_t shape_index = 0;    ///< among the body's shapes
 
-  /// Of the shape in the world.
+  /// Pose of the shape in the world.
   Pose pose() const { return *body_pose * shape->origin; }
 };
 
@@ -48,7 +48,7 @@ struct BvhNode {
 /// A hierarchy; its root is node 0. Empty when there is no node.
 struct Bvh {
   std::span<const BvhNode> nodes;
-  std::span<const std::uint32_t> items;  ///< what the leaves name, see SceneIndex
+  std::span<const std::uint32_t> items;  ///< items of the leaves, see SceneIndex
 };
 
 /// The colliders of one robot: `colliders[first .. first + count)`.
@@ -56,49 +56,49 @@ struct RobotColliders {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
   Aabb bounds;    ///< around all of them
-  Aabb fat_aabb;  ///< box with a margin in which the robot stays for a while; as in `moving`
+  Aabb fat_aabb;  ///< box with a margin in which the robot stays for a while; the same as in `moving`
 };
 
-/// The spatial index of the scene: a derived property of the world, right for the instant in which
-/// its writer ran. Two levels: scenery (built once), and robots (boxes with a margin, refitted only
-/// when a robot leaves its box); within a robot its few colliders are looked at one by one.
+/// The spatial index of the scene: a derived property of the world, valid for the instant in which its writer ran. It has
+/// two levels: scenery (built once), and robots (boxes with a margin, refitted only when a robot leaves its box). The few
+/// colliders of a robot are tested one by one.
 struct SceneIndex {
   std::span<const Collider> colliders;     ///< scenery first, then robot by robot
-  std::span<const RobotColliders> robots;  ///< by robot number
-  std::span<const std::uint32_t> planes;   ///< colliders without bounds, tested by everyone
+  std::span<const RobotColliders> robots;  ///< by RobotId
+  std::span<const std::uint32_t> planes;   ///< colliders without bounds, tested against everything
   Bvh scenery;                             ///< items are indices of colliders
-  Bvh moving;                              ///< items are robot numbers
-  /// How often a robot's `fat_aabb` has changed, by robot number; by itself, since all look for new ones and few find
-  /// any.
+  Bvh moving;                              ///< items are robot ids
+  /// Number of changes of each robot's `fat_aabb`, by RobotId. An array of its own, since every reader asks for changes
+  /// and few find any.
   std::span<const std::uint64_t> changes{};
   std::uint64_t all_changes = 0;  ///< their sum
 };
 MURO_OPAQUE_TYPE(SceneIndex, "muro.SceneIndex", transient);
 
-/// One point in which two bodies touch, as the owner of the list (`self`) sees it. A pair of robots
-/// stands in the lists of both, with equal point and depth and the opposite normal.
+/// One point in which two bodies touch, from the view of the list's owner (`self`). A contact of two robots is in the lists
+/// of both, with equal point and depth and the opposite normal.
 struct Contact {
   ObjectId self = no_object;
   ObjectId other = no_object;
   Vec3 point = Vec3::Zero();      ///< m, world: half way between the two surfaces
   Vec3 normal = Vec3::Zero();     ///< unit, world: the direction in which `self` is pushed
-  double depth = 0;               ///< m, > 0: how far the bodies overlap along the normal
+  double depth = 0;               ///< m, > 0: overlap of the bodies along the normal
   Surface surface{};              ///< of the pair
   std::uint32_t self_shape = 0;   ///< index among the shapes of `self`
   std::uint32_t other_shape = 0;  ///< index among the shapes of `other`
 };
 MURO_OPAQUE_TYPE(Contact, "muro.Contact", opaque);
 
-/// One point in which two bodies touch, and what it does to the first of them; the other gets the opposite. A contact
-/// of two robots stands in the lists of both, each time with the body of the list's owner first: with equal point and
-/// depth, and the opposite normal and wrench. One of two bodies of a robot stands in its list once.
+/// One point in which two bodies touch, and the wrench on the first body; the other body gets the opposite. A contact of
+/// two robots is in the lists of both, each time with the body of the list's owner first: with equal point and depth, and
+/// the opposite normal and wrench. A contact of two bodies of one robot is in its list once.
 struct ContactWrench {
   ObjectId body = no_object;
   ObjectId other = no_object;
   Vec3 point = Vec3::Zero();   ///< m, world
   Vec3 normal = Vec3::Zero();  ///< unit, world: the direction in which `body` is pushed
-  double depth = 0;            ///< m: how far the bodies overlap along the normal; below 0 where they are apart
-  Wrench wrench{};             ///< on `body`, at the point, world axes; not a number where it is not known
+  double depth = 0;            ///< m: overlap of the bodies along the normal; below 0: their distance
+  Wrench wrench{};             ///< on `body`, at the point, world axes; not a number: unknown
 };
 MURO_OPAQUE_TYPE(ContactWrench, "muro.ContactWrench", opaque);
 

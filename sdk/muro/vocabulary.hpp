@@ -7,5 +7,6 @@
 #include "muro/vocabulary/contact.hpp"
 #include "muro/vocabulary/joint.hpp"
 #include "muro/vocabulary/laser.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "muro/vocabulary/radio.hpp"
 #include "muro/vocabulary/sensor.hpp"

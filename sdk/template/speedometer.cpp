@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "muro/plugin.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace {
 

@@ -15,8 +15,8 @@
 #include "muro/ext/loaded_libraries.hpp"
 #include "muro/ext/lockstep.hpp"
 #include "muro/ext/outputs.hpp"
+#include "muro/ext/package_folders.hpp"
 #include "muro/ext/report_entries.hpp"
-#include "muro/ext/report_numbers.hpp"
 #include "muro/ext/run_control.hpp"
 #include "muro/model_reader.hpp"
 #include "muro_controller.h"
@@ -28,6 +28,7 @@ using Lines = std::vector<std::string>;
 
 std::string line_of(const abi::Place& p) {
   const bool is_struct = p.name.find('.') == std::string_view::npos;
+  if (is_struct && p.size == 0) return std::string(p.name) + ": may grow, alignment " + std::to_string(p.offset);
   return std::string(p.name) + (is_struct ? ": size " : ": offset ") + std::to_string(is_struct ? p.size : p.offset) +
          (is_struct ? ", alignment " : ", size ") + std::to_string(is_struct ? p.offset : p.size);
 }
@@ -92,12 +93,14 @@ void add_functions_of_hosts(Lines& out) {
   FUNCTION(RobotBuilder, intern);
   FUNCTION(RobotBuilder, report);
   OpenRobotBuilder::add_to(out);
+  FUNCTION(RobotBuilder, find_extension);
   FUNCTION(WorldBuilder, gravity);
   FUNCTION(WorldBuilder, scenery);
   FUNCTION(WorldBuilder, model);
   FUNCTION(WorldBuilder, intern);
   FUNCTION(WorldBuilder, report);
   FUNCTION(WorldBuilder, friction_rule);
+  FUNCTION(WorldBuilder, find_extension);
 }
 
 void add_functions_of_plugins(Lines& out) {
@@ -111,6 +114,7 @@ void add_functions_of_plugins(Lines& out) {
   FUNCTION(AlgorithmInstance, restored);
   FUNCTION(AlgorithmInstance, finish);
   FUNCTION(AlgorithmInstance, destroy);
+  FUNCTION(AlgorithmInstance, find_extension);
   FUNCTION(ReaderInstance, read);
   FUNCTION(ReaderInstance, destroy);
   FUNCTION(ReaderInstance, read_world);
@@ -203,25 +207,10 @@ void add_tables(Lines& out) {
 }
 #pragma GCC diagnostic pop
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Winvalid-offsetof"
-/// Values of properties that minor versions have brought. The hash of the contract is that of N.0, which older plugins
-/// have, so that these are held by this record alone.
-void add_later_structs(Lines& out) {
-  using abi::Place;
-  add_places(std::initializer_list<Place>{MURO_SIZE(ContactWrench), MURO_PLACE(ContactWrench, body),
-                                          MURO_PLACE(ContactWrench, other), MURO_PLACE(ContactWrench, point),
-                                          MURO_PLACE(ContactWrench, normal), MURO_PLACE(ContactWrench, depth),
-                                          MURO_PLACE(ContactWrench, wrench)},
-             out);
-}
-#pragma GCC diagnostic pop
-
 Lines present() {
   Lines out;
   add_tables(out);
   add_places(abi::contract_places, out);
-  add_later_structs(out);
   add_functions_of_hosts(out);
   add_functions_of_plugins(out);
   add_extension(Inspection::id(), out);
@@ -232,7 +221,8 @@ Lines present() {
   add_extension(Lockstep::id(), out);
   add_extension(RunControl::id(), out);
   add_extension(ReportEntries::id(), out);
-  add_extension(ReportNumbers::id(), out);
+  add_extension(PackageFolders::id(), out);
+  add_extension(PauseAttendant::id(), out);
   return out;
 }
 
@@ -301,6 +291,9 @@ TEST(Contract, HasEveryMemberOfItsStructsOnTheList) {
                          COUNT(RobotColliders),
                          COUNT(SceneIndex),
                          COUNT(Contact),
+                         COUNT(ContactWrench),
+                         COUNT(ExtensionId),
+                         COUNT(Surface),
                          COUNT(Parameter),
                          COUNT(ParameterValue),
                          COUNT(PropertyUse),

@@ -34,7 +34,7 @@ class Orbit final : public Algorithm {
     rate_ = p.real("rate");
     for (const Item& item : c.items()) {
       const ObjectId base = item.object;
-      const std::span<const Shape> shapes = c.constant_array(base, keys::collision_shapes);
+      const Rows<Shape> shapes = c.constant_array(base, keys::collision_shapes);
       Eigen::Matrix<double, 4, Eigen::Dynamic> colors(4, Eigen::Index(shapes.size()));
       for (std::size_t i = 0; i < shapes.size(); ++i) colors.col(Eigen::Index(i)) = shapes[i].color;
       robots_.push_back({Eigen::Matrix4d::Identity(),

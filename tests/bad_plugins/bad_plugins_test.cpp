@@ -26,7 +26,7 @@ std::string refusal(const std::string& name) {
 std::string library(const std::string& name) { return folder + name + "/" + name + ".so"; }
 
 struct Difference {
-  std::string plugin, text;
+  std::string plugin, text, more{};
 
   friend void PrintTo(const Difference& d, std::ostream* out) { *out << d.plugin; }
 };
@@ -35,7 +35,8 @@ class ForeignPlugin : public testing::TestWithParam<Difference> {};
 
 TEST_P(ForeignPlugin, IsRefusedWithTheFieldOfTheStampThatDiffers) {
   EXPECT_EQ(refusal(GetParam().plugin), "plugin " + library(GetParam().plugin) + " was built for another muro: " +
-                                            GetParam().text + "; build it again with muro_add_plugin() of this muro");
+                                            GetParam().text + "; build it again with muro_add_plugin() of this muro" +
+                                            GetParam().more);
 }
 
 std::string of_number(const char* field, std::uint32_t in_plugin, std::uint32_t here) {
@@ -47,7 +48,8 @@ constexpr abi::Stamp ours = abi::make_stamp();
 const Difference differences[] = {
     {"wrong_magic", "its table does not begin with \"MUROPLUG\""},
     {"wrong_stamp_size", of_number("stamp_size", ours.stamp_size + 4, ours.stamp_size)},
-    {"wrong_sdk_major", of_number("sdk_major", ours.sdk_major + 1, ours.sdk_major)},
+    {"wrong_sdk_major", of_number("sdk_major", ours.sdk_major + 1, ours.sdk_major),
+     "; sdk/CHANGELOG.md says what to write for a new version of the SDK"},
     {"newer_sdk_minor", "sdk_minor is " + std::to_string(ours.sdk_minor + 1) + " in the plugin and only " +
                             std::to_string(ours.sdk_minor) + " in this muro"},
     {"wrong_string_layout", of_number("standard_library_abi", 0, 1)},

@@ -7,7 +7,7 @@
 
 #include <chrono>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/support/scene.hpp"
 

@@ -55,7 +55,7 @@ class Vehicles : public test::Scene {
     for (const RobotView* r : world().robots()) {
       const std::span<const Contact> contacts = world().values(r->base(), keys::contacts);
       count += std::any_of(contacts.begin(), contacts.end(),
-                           [&](const Contact& c) { return world().robot_of(c.other) >= 0; });
+                           [&](const Contact& c) { return world().robot_of(c.other) != no_robot; });
     }
     return count;
   }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 #include "tests/compare/scip_text.hpp"
 #include "tests/support/files.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 
 namespace muro::host {
 namespace {

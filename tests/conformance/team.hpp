@@ -21,7 +21,7 @@ inline std::vector<std::string> algorithms_of(const std::string& kind) {
 
 /// Whether a motion wants to be told which parts of a robot are what, and so moves no other robots.
 inline bool names_parts(const std::string& motion) {
-  const std::span<const Parameter> known = plugins().algorithm(motion).description->parameters;
+  const Rows<Parameter> known = plugins().algorithm(motion).description->parameters;
   return std::any_of(known.begin(), known.end(), [](const Parameter& p) { return p.is_required; });
 }
 
@@ -78,7 +78,7 @@ struct Team : Scene {
   }
   void command() {
     for (const RobotView* r : rovers) {
-      const double turn = 0.2 * double(r->number) - 0.4;
+      const double turn = 0.2 * double(index_of(r->id)) - 0.4;
       if (world().has(r->base(), "command.twist")) {
         world().value(r->base(), keys::command_twist) = {{0.5, 0, 0}, {0, 0, turn}};
         continue;

@@ -8,9 +8,9 @@
 #include "core/simulated_time.hpp"
 #include "core/text_table.hpp"
 #include "core/world.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
-#include "muro/toolkit/limits.hpp"
-#include "muro/toolkit/printable.hpp"
+#include "muro/base/did_you_mean.hpp"
+#include "muro/base/limits.hpp"
+#include "muro/base/printable.hpp"
 #include "muro/vocabulary.hpp"
 #include "tests/support/complaint.hpp"
 

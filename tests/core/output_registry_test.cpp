@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "muro/toolkit/whole_file.hpp"
+#include "muro/base/whole_file.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/files.hpp"
 

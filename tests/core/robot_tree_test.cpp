@@ -101,7 +101,7 @@ TEST(RobotTree, MakesAnyNumberOfRobots) {
   const RobotView& b = world.add_robot("b", tree, {{1, 2, 3}, Quat::Identity()});
   EXPECT_EQ(world.values(b.links[0].object, keys::collision_shapes)[0].size.x(), 1);
   EXPECT_EQ(world.value("b/cart", keys::initial_pose).position.z(), 3);
-  EXPECT_EQ(world.robot_of(world.object("b/hand")), 1);
+  EXPECT_EQ(world.robot_of(world.object("b/hand")), RobotId{1});
 }
 
 TEST(RobotTree, ForksAreBinary) {

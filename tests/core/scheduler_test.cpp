@@ -20,7 +20,7 @@ class Recorder final : public abi::AlgorithmInstance {
   bool connect(Connector&, abi::ErrorText&) noexcept override { return true; }
   bool connect_by_name(Connector&, abi::ErrorText&) noexcept override { return true; }
   bool start(abi::ErrorText&) noexcept override { return true; }
-  std::span<const Phase> phases() const noexcept override { return {}; }
+  Rows<Phase> phases() const noexcept override { return {}; }
   bool step(const Step& step, Range, abi::ErrorText& error) noexcept override {
     log_.push_back(name_ + "@" + std::to_string(step.time / 1'000'000));
     last = step;
@@ -32,6 +32,7 @@ class Recorder final : public abi::AlgorithmInstance {
   bool finish(abi::ErrorText&) noexcept override { return true; }
   void destroy() noexcept override {}
   bool on_handover(std::uint32_t, abi::ErrorText&) noexcept override { return true; }
+  void* find_extension(const ExtensionId&) noexcept override { return nullptr; }
   Step last;
   bool fails = false;
   std::uint64_t busy_step = 16;  ///< of each 16 that in which it works; 16: none
@@ -50,7 +51,7 @@ struct Fixture : ::testing::Test {
   std::deque<Recorder> recorders;
   Scheduler scheduler;
 
-  TaskId add(const std::string& name, double hertz, int order = 0, std::int64_t phase = 0,
+  TaskId add(const std::string& name, double hertz, Kind kind = Kind::kinematics, std::int64_t phase = 0,
              std::vector<std::uint32_t> reads = {}, std::vector<std::uint32_t> writes = {}) {
     recorders.emplace_back(name, log);
     Task task;
@@ -59,7 +60,7 @@ struct Fixture : ::testing::Test {
     task.items = 1;
     task.rate = Rate(hertz);
     task.phase = phase;
-    task.order = order;
+    task.kind = kind;
     task.reads = std::move(reads);
     task.writes = std::move(writes);
     return scheduler.add(std::move(task));
@@ -77,25 +78,25 @@ TEST_F(SchedulerTest, RunsEachTaskAtItsOwnRate) {
 }
 
 TEST_F(SchedulerTest, OrdersAnInstantByKindThenByAdding) {
-  add("motion", 10, 9);
-  add("sensor 1", 10, 2);
-  add("sensor 2", 10, 2);
+  add("motion", 10, Kind::motion);
+  add("sensor 1", 10, Kind::sensor);
+  add("sensor 2", 10, Kind::sensor);
   scheduler.run_until(1);
   EXPECT_EQ(log, (Log{"sensor 1@0", "sensor 2@0", "motion@0"}));
 }
 
 TEST_F(SchedulerTest, APhaseShiftsEveryRun) {
-  add("a", 10, 0, 30'000'000);
+  add("a", 10, Kind::kinematics, 30'000'000);
   scheduler.run_until(300'000'000);
   EXPECT_EQ(log, (Log{"a@30", "a@130", "a@230"}));
 }
 
 TEST_F(SchedulerTest, OnDemandRunsOnceAnInstantJustBeforeItsFirstReader) {
-  add("kinematics", 0, 0, 0, {1}, {2});
-  add("index", 0, 1, 0, {2}, {3});
-  add("laser", 5, 2, 0, {3}, {4});
-  add("second laser", 5, 2, 0, {3}, {6});
-  add("motion", 10, 9, 0, {5}, {1});
+  add("kinematics", 0, Kind::kinematics, 0, {1}, {2});
+  add("index", 0, Kind::scene, 0, {2}, {3});
+  add("laser", 5, Kind::sensor, 0, {3}, {4});
+  add("second laser", 5, Kind::sensor, 0, {3}, {6});
+  add("motion", 10, Kind::motion, 0, {5}, {1});
   scheduler.run_until(250'000'000);
   EXPECT_EQ(log, (Log{"kinematics@0", "index@0", "laser@0", "second laser@0", "motion@0", "motion@100",
                       "kinematics@200", "index@200", "laser@200", "second laser@200", "motion@200"}));
@@ -103,10 +104,10 @@ TEST_F(SchedulerTest, OnDemandRunsOnceAnInstantJustBeforeItsFirstReader) {
 }
 
 TEST_F(SchedulerTest, ASequenceKeepsItsOrderAndGivesItsRateToAll) {
-  const TaskId contact = add("contact", 0, 8);
-  const TaskId motion = add("motion", 10, 9);
-  const TaskId collision = add("collision", 0, 7);
-  add("laser", 10, 2);
+  const TaskId contact = add("contact", 0, Kind::contact);
+  const TaskId motion = add("motion", 10, Kind::motion);
+  const TaskId collision = add("collision", 0, Kind::collision);
+  add("laser", 10, Kind::sensor);
   scheduler.add_sequence({contact, motion, collision});
   scheduler.run_until(150'000'000);
   EXPECT_EQ(log, (Log{"laser@0", "contact@0", "motion@0", "collision@0", "laser@100", "contact@100", "motion@100",
@@ -120,27 +121,27 @@ TEST_F(SchedulerTest, ASequenceOfDifferentRatesOrOfNoneIsAnError) {
 }
 
 TEST_F(SchedulerTest, ATaskOnDemandHasTheLongestPeriodOfItsReaders) {
-  add("contact", 0, 8, 0, {}, {1});
-  add("fast", 1000, 9, 0, {1});
-  add("slow", 100, 9, 0, {1});
+  add("contact", 0, Kind::contact, 0, {}, {1});
+  add("fast", 1000, Kind::motion, 0, {1});
+  add("slow", 100, Kind::motion, 0, {1});
   scheduler.run_until(5'000'000);
   EXPECT_DOUBLE_EQ(recorders[0].last.dt, 0.01);
 }
 
 TEST_F(SchedulerTest, WhoOnlyLooksDoesNotLengthenThePeriodOfATaskOnDemand) {
-  add("contact", 0, 8, 0, {}, {1});
-  add("motion", 1000, 9, 0, {1}, {2});
-  add("recorder", 100, 3, 0, {1});
+  add("contact", 0, Kind::contact, 0, {}, {1});
+  add("motion", 1000, Kind::motion, 0, {1}, {2});
+  add("recorder", 100, Kind::recorder, 0, {1});
   scheduler.run_until(5'000'000);
   EXPECT_DOUBLE_EQ(recorders[0].last.dt, 0.001);
 }
 
 TEST_F(SchedulerTest, ASensorDoesNotLengthenThePeriodOfATaskOnDemand) {
-  add("contact", 0, 8, 0, {}, {1});
-  add("motion", 1000, 9, 0, {1}, {2});
-  add("sensor", 100, 2 * order_of(Kind::sensor), 0, {1}, {3});
-  add("sensor on demand", 0, 2 * order_of(Kind::sensor), 0, {1}, {4});
-  add("controller", 10, 2 * order_of(Kind::controller), 0, {4}, {5});
+  add("contact", 0, Kind::contact, 0, {}, {1});
+  add("motion", 1000, Kind::motion, 0, {1}, {2});
+  add("sensor", 100, Kind::sensor, 0, {1}, {3});
+  add("sensor on demand", 0, Kind::sensor, 0, {1}, {4});
+  add("controller", 10, Kind::controller, 0, {4}, {5});
   scheduler.run_until(5'000'000);
   EXPECT_DOUBLE_EQ(recorders[0].last.dt, 0.001);
   EXPECT_DOUBLE_EQ(recorders[3].last.dt, 0.1);
@@ -150,16 +151,16 @@ TEST_F(SchedulerTest, ASensorDoesNotLengthenThePeriodOfATaskOnDemand) {
 class StepsOfMotion : public SchedulerTest {
  protected:
   void add_contact_and_motion(double rate) {
-    add("collision", 0, 2 * order_of(Kind::collision), 0, {5}, {1});
-    add("contact", 0, 2 * order_of(Kind::contact), 0, {1}, {2});
-    add("motion", rate, 2 * order_of(Kind::motion), 0, {2}, {5});
+    add("collision", 0, Kind::collision, 0, {5}, {1});
+    add("contact", 0, Kind::contact, 0, {1}, {2});
+    add("motion", rate, Kind::motion, 0, {2}, {5});
   }
 };
 
 TEST_F(StepsOfMotion, ContactRunsForMotionsAndNotForThoseWhoLook) {
   add_contact_and_motion(10);
-  add("sensor", 20, 2 * order_of(Kind::sensor), 0, {2}, {3});
-  add("control", 20, 2 * order_of(Kind::controller), 0, {1}, {4});
+  add("sensor", 20, Kind::sensor, 0, {2}, {3});
+  add("control", 20, Kind::controller, 0, {1}, {4});
   scheduler.run_until(150'000'000);
   EXPECT_EQ(log, (Log{"collision@0", "contact@0", "sensor@0", "control@0", "motion@0", "sensor@50", "control@50",
                       "sensor@100", "control@100", "collision@100", "contact@100", "motion@100"}))
@@ -168,21 +169,21 @@ TEST_F(StepsOfMotion, ContactRunsForMotionsAndNotForThoseWhoLook) {
 
 TEST_F(StepsOfMotion, ContactHasThePeriodOfTheSlowestMotion) {
   add_contact_and_motion(1000);
-  add("second motion", 500, 2 * order_of(Kind::motion), 0, {2}, {6});
-  add("control", 10, 2 * order_of(Kind::controller), 0, {1}, {4});
-  add("level", 20, 2 * order_of(Kind::level), 0, {1, 2}, {7});
+  add("second motion", 500, Kind::motion, 0, {2}, {6});
+  add("control", 10, Kind::controller, 0, {1}, {4});
+  add("level", 20, Kind::level, 0, {1, 2}, {7});
   scheduler.run_until(5'000'000);
   EXPECT_DOUBLE_EQ(recorders[0].last.dt, 0.002);
   EXPECT_DOUBLE_EQ(recorders[1].last.dt, 0.002);
 }
 
 TEST_F(StepsOfMotion, LevelsChangeBeforeContactAndAfterTheirRules) {
-  add("collision", 0, 2 * order_of(Kind::collision), 0, {6}, {1});
-  add("contact", 0, 2 * order_of(Kind::contact), 0, {1, 6}, {2});
-  add("motion", 10, 2 * order_of(Kind::motion), 0, {2, 6}, {5});
-  add("sensor", 20, 2 * order_of(Kind::sensor), 0, {2, 6}, {3});
-  add("rules", 10, 2 * order_of(Kind::level), 0, {5}, {7});
-  add("levels", 0, 2 * order_of(Kind::level) + 1, 0, {7}, {6});
+  add("collision", 0, Kind::collision, 0, {6}, {1});
+  add("contact", 0, Kind::contact, 0, {1, 6}, {2});
+  add("motion", 10, Kind::motion, 0, {2, 6}, {5});
+  add("sensor", 20, Kind::sensor, 0, {2, 6}, {3});
+  add("rules", 10, Kind::level, 0, {5}, {7});
+  add("levels", 0, Kind::level, 0, {7}, {6});
   scheduler.run_until(150'000'000);
   EXPECT_EQ(log, (Log{"sensor@0", "rules@0", "levels@0", "collision@0", "contact@0", "motion@0", "sensor@50",
                       "sensor@100", "rules@100", "levels@100", "collision@100", "contact@100", "motion@100"}))
@@ -190,24 +191,24 @@ TEST_F(StepsOfMotion, LevelsChangeBeforeContactAndAfterTheirRules) {
 }
 
 TEST_F(StepsOfMotion, WithoutMotionsContactRunsForThoseWhoAsk) {
-  add("collision", 0, 2 * order_of(Kind::collision), 0, {5}, {1});
-  add("sensor", 20, 2 * order_of(Kind::sensor), 0, {1}, {3});
+  add("collision", 0, Kind::collision, 0, {5}, {1});
+  add("sensor", 20, Kind::sensor, 0, {1}, {3});
   scheduler.run_until(100'000'000);
   EXPECT_EQ(log, (Log{"collision@0", "sensor@0", "collision@50", "sensor@50"}));
 }
 
 TEST_F(StepsOfMotion, BeginWithTheFirstStepOfAMotion) {
-  add("collision", 0, 2 * order_of(Kind::collision), 0, {5}, {1});
-  add("contact", 0, 2 * order_of(Kind::contact), 0, {1}, {2});
-  add("motion", 10, 2 * order_of(Kind::motion), 50'000'000, {2}, {5});
-  add("sensor", 20, 2 * order_of(Kind::sensor), 0, {2}, {3});
+  add("collision", 0, Kind::collision, 0, {5}, {1});
+  add("contact", 0, Kind::contact, 0, {1}, {2});
+  add("motion", 10, Kind::motion, 50'000'000, {2}, {5});
+  add("sensor", 20, Kind::sensor, 0, {2}, {3});
   scheduler.run_until(100'000'000);
   EXPECT_EQ(log, (Log{"sensor@0", "collision@50", "contact@50", "sensor@50", "motion@50"}));
 }
 
 TEST_F(StepsOfMotion, GoOnFromAStateWithoutABeginning) {
   add_contact_and_motion(10);
-  add("sensor", 10, 2 * order_of(Kind::sensor), 0, {2}, {3});
+  add("sensor", 10, Kind::sensor, 0, {2}, {3});
   scheduler.run_until(100'000'000);
   const Scheduler::State state = scheduler.state();
   log.clear();

@@ -45,7 +45,7 @@ struct Team : ::testing::Test {
   Task& add(std::vector<Phase> phases) {
     Task t;
     t.items = t.robots = robots;
-    for (std::uint32_t r = 0; r < robots; ++r) t.robot_of_item.push_back(std::int32_t(r));
+    for (std::uint32_t r = 0; r < robots; ++r) t.robot_of_item.push_back(RobotId{r});
     t.phases = std::move(phases);
     due.push_back({TaskId(tasks.size()), 0.001});
     return tasks.emplace_back(std::move(t));
@@ -53,9 +53,9 @@ struct Team : ::testing::Test {
   void every(Task& t, std::uint32_t slot, bool exclusive) const {
     for (std::uint32_t r = 0; r < robots; ++r) t.accesses.push_back({10 * r + slot, exclusive});
   }
-  std::vector<std::int32_t> robot_of_slot() const {
-    std::vector<std::int32_t> of(10 * robots + 10, -1);
-    for (std::uint32_t s = 0; s < 10 * robots; ++s) of[s] = std::int32_t(s / 10);
+  std::vector<RobotId> robot_of_slot() const {
+    std::vector<RobotId> of(10 * robots + 10, no_robot);
+    for (std::uint32_t s = 0; s < 10 * robots; ++s) of[s] = RobotId{s / 10};
     return of;
   }
   std::vector<Stage> stages() const { return stages_of(due, tasks, robot_of_slot()); }
@@ -203,9 +203,9 @@ TEST_F(Stages, EveryConflictKeepsTheOrderOfDueTasks) {
           for (std::uint32_t i = call.range.begin; i < call.range.end; ++i)
             EXPECT_EQ(served.insert(std::tuple(call.order, call.phase, i)).second, true);
           for (const SlotAccess& a : tasks[call.task].accesses) {
-            const std::int32_t robot = of_slot[a.slot];
+            const RobotId robot = of_slot[a.slot];
             const bool inside =
-                robot < 0 || (std::uint32_t(robot) >= call.range.begin && std::uint32_t(robot) < call.range.end);
+                robot == no_robot || (index_of(robot) >= call.range.begin && index_of(robot) < call.range.end);
             const bool has_access =
                 phase.index_space == IndexSpace::whole || inside || (phase.scope == Scope::reads_all && !a.exclusive);
             if (!has_access) continue;

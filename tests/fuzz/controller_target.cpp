@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/whole_library.hpp"
+#include "muro/base/whole_library.hpp"
 #include "plugins/controller/library/connections.hpp"
 #include "plugins/controller/library/control_table.hpp"
 #include "plugins/controller/library/table_check.hpp"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/hash.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 
 namespace muro::test {
 

@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "host/scenario/builder.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 #include "tests/golden/property_hashes.hpp"
 
 namespace {

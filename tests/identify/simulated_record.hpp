@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "host/tools/identify/motor_simulation.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 
 namespace muro::test {
 

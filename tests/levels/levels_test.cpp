@@ -41,17 +41,17 @@ TEST(Levels, RoversOfAllLevelsPushABallAndBoxesAndEachOther) {
       const ObjectId base = r->base();
       if (!s.world().has(base, "contacts")) continue;
       for (const Contact& c : s.world().values(base, keys::contacts))
-        if (const std::int32_t other = s.world().robot_of(c.other); other >= 0)
-          pairs.emplace(r->name, robots[std::size_t(other)]->name);
+        if (const RobotId other = s.world().robot_of(c.other); other != no_robot)
+          pairs.emplace(r->name, robots[index_of(other)]->name);
     }
   }
   for (const char* rover : {"point", "differential_drive", "simplified", "bullet", "ode", "mujoco"}) {
     const Vec3 now = pose_of(s, rover).position;
-    const Vec3 before = start[s.world().find_robot(rover)->number];
+    const Vec3 before = start[index_of(s.world().find_robot(rover)->id)];
     EXPECT_LT(now.norm(), before.norm() - 0.5) << rover << " came nearer to the middle";
   }
   for (const char* thing : {"ball", "box_by_bullet", "box_by_ode", "box_by_mujoco"}) {
-    const Vec3 before = start[s.world().find_robot(thing)->number];
+    const Vec3 before = start[index_of(s.world().find_robot(thing)->id)];
     EXPECT_GT((pose_of(s, thing).position - before).head<2>().norm(), 0.05) << thing << " was pushed";
   }
   EXPECT_GE(pairs.size(), 8u) << "robots of different worlds were in contact";

@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "host/scenario/builder.hpp"
 #include "host/scenario/mesh_corners.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 #include "muro/vocabulary.hpp"
 #include "tests/models/model_table.hpp"
 #include "tests/support/files.hpp"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # check_functions.sh FILE...: that no program or library of these takes an elementary function of the C library, whose
-# last bit depends on the processor: muro/toolkit/elementary.hpp and muro_elementary.h have those that are equal
+# last bit depends on the processor: muro/base/elementary.hpp and muro_elementary.h have those that are equal
 # everywhere. Functions with exact results (sqrt, fmod, floor, ...) are free. Prints what takes which; exit code 1 then.
 set -euo pipefail
 

@@ -45,7 +45,7 @@ struct Team : test::Scene {
         for (const Link& f : r->links) {
           if (f.joint == JointKind::fixed) continue;
           const bool rolls = i < rovers;
-          const double wave = std::sin(0.9 * k + i + 2.0 * double(&f - r->links.data()));
+          const double wave = std::sin(0.9 * k + i + 2.0 * double(&f - &r->links.front()));
           if (f.mimic < 0)
             world().value(f.joint_object, rolls ? keys::joint_velocity_target : keys::joint_position_target) =
                 rolls ? 5 + 3 * wave : 0.3 * wave;

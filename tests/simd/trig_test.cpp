@@ -7,7 +7,7 @@
 #include <random>
 
 #include "each_isa.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace muro::lane_test {
 namespace {

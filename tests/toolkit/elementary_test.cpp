@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro_elementary.h"
 
 namespace muro {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 
 #include <gtest/gtest.h>
 

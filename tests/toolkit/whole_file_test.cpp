@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "muro/toolkit/whole_file.hpp"
+#include "muro/base/whole_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

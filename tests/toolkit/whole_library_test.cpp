@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "muro/toolkit/whole_library.hpp"
+#include "muro/base/whole_library.hpp"
 
 #include <gtest/gtest.h>
 

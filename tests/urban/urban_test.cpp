@@ -47,9 +47,9 @@ std::vector<Trajectory> run_and_observe(BuiltScenario& built, double seconds) {
     s.run_for(0.05);
     for (const RobotView* r : robots) {
       const Pose& pose = s.world().value(r->base(), keys::pose);
-      Trajectory& trajectory = trajectories[r->number];
-      trajectory.distance += (pose.position - last[r->number]).norm();
-      trajectory.farthest = std::max(trajectory.farthest, (pose.position - start[r->number]).norm());
+      Trajectory& trajectory = trajectories[index_of(r->id)];
+      trajectory.distance += (pose.position - last[index_of(r->id)]).norm();
+      trajectory.farthest = std::max(trajectory.farthest, (pose.position - start[index_of(r->id)]).norm());
       trajectory.lowest = std::min(trajectory.lowest, pose.position.z());
       trajectory.highest = std::max(trajectory.highest, pose.position.z());
       trajectory.max_tilt =
@@ -57,7 +57,7 @@ std::vector<Trajectory> run_and_observe(BuiltScenario& built, double seconds) {
       for (const double x : {-0.175, 0.175})
         for (const double y : {-0.125, 0.125})
           trajectory.deepest_in_wall = std::max(trajectory.deepest_in_wall, inside_building(pose * Vec3(x, y, 0)));
-      last[r->number] = pose.position;
+      last[index_of(r->id)] = pose.position;
     }
   }
   return trajectories;

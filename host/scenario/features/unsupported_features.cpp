@@ -53,7 +53,7 @@ class Search {
     for (const RobotTemplate& t : built.scenario.robots)
       for (std::size_t i = 0; i < t.subsystems.size(); ++i)
         if (const RobotView* robot = world.find_robot(instance_name(t.name, t.numbered, i)))
-          origins_[robot->number] = {&t, i};
+          origins_[index_of(robot->id)] = {&t, i};
   }
 
   std::vector<UnsupportedFeatures> all() {
@@ -82,7 +82,7 @@ class Search {
     if (!entry.features) return;
     for (std::size_t i = 0; i < motion.items.size(); ++i) {
       const RobotView* robot = motion.items[i].robot;
-      if (!robot || !origins_[robot->number].robots) continue;
+      if (!robot || !origins_[index_of(robot->id)].robots) continue;
       if (!is_first_of_its_kind(*robot, motion)) continue;
       const bool own = contains(entry.writes, "wrench.contact");
       const MotionUse use{motion.item_setups.empty() ? motion.parameters : motion.item_setups[i].parameters, own,
@@ -99,7 +99,7 @@ class Search {
 
   /// Robots of a template with the same subsystems use the same features.
   bool is_first_of_its_kind(const RobotView& robot, const AlgorithmSetup& motion) {
-    const Origin& origin = origins_[robot.number];
+    const Origin& origin = origins_[index_of(robot.id)];
     std::string kind = origin.robots->name + " " + motion.use;
     for (const Subsystem& s : origin.subsystems()) kind += " " + s.use + " " + s.location.text();
     return seen_.insert(std::move(kind)).second;
@@ -107,16 +107,16 @@ class Search {
 
   /// What was found for the robot's template and this motion.
   UnsupportedFeatures& found_for(const RobotView& robot, const AlgorithmSetup& motion) {
-    const Origin& origin = origins_[robot.number];
+    const Origin& origin = origins_[index_of(robot.id)];
     for (Found& f : found_)
       if (f.unsupported.robots == origin.robots->name && f.unsupported.motion == motion.use) {
-        f.robot = std::min(f.robot, robot.number);
+        f.robot = std::min(f.robot, index_of(robot.id));
         return f.unsupported;
       }
     Location location = origin.robots->location;
     for (const Subsystem& s : origin.subsystems())
       if (s.use == motion.use) location = s.location;
-    found_.push_back({robot.number, {origin.robots->name, motion.use, location, {}}});
+    found_.push_back({index_of(robot.id), {origin.robots->name, motion.use, location, {}}});
     return found_.back().unsupported;
   }
 

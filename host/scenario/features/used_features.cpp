@@ -173,7 +173,7 @@ class FeatureSearch {
 SceneryTraits scenery_traits(const World& world) {
   SceneryTraits traits;
   for (std::uint32_t i = 0; i < world.object_count(); ++i)
-    if (world.robot_of(ObjectId{i}) < 0)
+    if (world.robot_of(ObjectId{i}) == no_robot)
       for (const Shape& s : world.constants(ObjectId{i}, keys::collision_shapes)) {
         traits.meshes += s.kind == ShapeKind::mesh;
         traits.heightmaps += s.kind == ShapeKind::heightmap;

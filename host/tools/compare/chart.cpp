@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace muro::host {
 

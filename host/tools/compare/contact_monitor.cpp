@@ -64,7 +64,7 @@ Shape ContactMonitor::copy_of(Shape shape, double grown_by, Owner& owner) const 
 void ContactMonitor::add_scenery() {
   const World& world = monitored_.world();
   for (std::uint32_t i = 0; i < world.object_count(); ++i) {
-    const Pose* pose = world.robot_of(ObjectId{i}) < 0 ? pose_of(world, ObjectId{i}) : nullptr;
+    const Pose* pose = world.robot_of(ObjectId{i}) == no_robot ? pose_of(world, ObjectId{i}) : nullptr;
     std::vector<Shape> shapes;
     for (const Shape& s : world.constants(ObjectId{i}, keys::collision_shapes))
       if (s.kind != ShapeKind::plane) shapes.push_back(copy_of(s, 0, scene_.world()));
@@ -90,7 +90,7 @@ void ContactMonitor::add_bodies() {
       tree.close();
       const RobotView& copy = scene_.world().add_robot(world.object_name(link.object) + ".copy", tree, *pose);
       scene_.use("motion.simplified", 1000, {{&copy, copy.base()}});
-      bodies_.push_back({r->number, pose});
+      bodies_.push_back({index_of(r->id), pose});
     }
   }
 }
@@ -123,10 +123,10 @@ void ContactMonitor::add_contact(const Pair& pair, double now) {
 
 void ContactMonitor::add_contact(std::uint32_t body, const Contact& contact, double now) {
   const std::uint32_t robot = bodies_[body].robot;
-  const std::int32_t other_body = scene_.world().robot_of(contact.other);
+  const RobotId other_body = scene_.world().robot_of(contact.other);
   if (!counts_[robot]) return;
-  if (other_body < 0) return add_contact({robot, scenery_bit | index_of(contact.other)}, now);
-  const std::uint32_t other = bodies_[std::size_t(other_body)].robot;
+  if (other_body == no_robot) return add_contact({robot, scenery_bit | index_of(contact.other)}, now);
+  const std::uint32_t other = bodies_[index_of(other_body)].robot;
   if (other == robot) return;
   // a pair of robots is in the contact lists of both
   add_contact(counts_[other] ? Pair{std::min(robot, other), std::max(robot, other)} : Pair{robot, other}, now);
@@ -140,7 +140,7 @@ void ContactMonitor::update() {
   const double now = 1e-9 * double(monitored_.now());
   const World& world = scene_.world();
   for (const RobotView* r : world.robots())
-    for (const Contact& c : world.values(r->base(), keys::contacts)) add_contact(r->number, c, now);
+    for (const Contact& c : world.values(r->base(), keys::contacts)) add_contact(index_of(r->id), c, now);
   updated_ = true;
 }
 

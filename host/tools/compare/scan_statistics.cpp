@@ -7,7 +7,7 @@
 #include <numeric>
 #include <optional>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace muro::host {
 

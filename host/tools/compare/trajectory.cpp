@@ -44,7 +44,8 @@ std::optional<Differences> differences_of(const std::vector<T>& values, const st
 /// By the base and the joints alone, which every motion has; no algorithm has to tell where links are.
 void Trajectory::sample_links(const World& world, const RobotView& robot) {
   std::vector<Pose> poses{world.value(robot.base(), keys::pose)};
-  for (const Link& link : robot.links.subspan(1)) {
+  for (const Link& link : robot.links) {
+    if (link.parent < 0) continue;
     double position = 0;
     if (link.joint != JointKind::fixed) {
       position = position_of_joint(world, robot, link);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "host/tools/identify/record.hpp"
-#include "muro/toolkit/motor_model.hpp"
+#include "muro/base/motor_model.hpp"
 
 namespace muro::host {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "host/tools/identify/record_text.hpp"
-#include "muro/toolkit/input_file.hpp"
+#include "muro/base/input_file.hpp"
 
 namespace muro::host {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/tools/identify/search_space.hpp"
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace muro::host {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro/toolkit/flicker_noise.hpp"
 
 namespace muro::host {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "plugins/common/mesh/srgb.hpp"
 
 namespace muro::camera {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lens.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 
 namespace muro::camera {
 

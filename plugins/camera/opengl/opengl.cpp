@@ -8,9 +8,9 @@
 
 #include "image_pipeline.hpp"
 #include "muro/plugin.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro/toolkit/mounting.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/link_motion/constant_twist.hpp"
 #include "plugins/common/render/color_renderer.hpp"
@@ -171,7 +171,7 @@ class Camera final : public Algorithm {
     ArrayOut<std::uint8_t> image;
     ArrayOut<float> depth;
     ArrayOut<ObjectId> labels;
-    std::int32_t ignored_robot = -1;
+    RobotId ignored_robot = no_robot;
     std::uint64_t random_key = 0;
   };
   /// Rows that are exposed together, of the drawn image.
@@ -200,7 +200,7 @@ class Camera final : public Algorithm {
     if (p.boolean("rgb")) d.image = c.variable_array(sensor, keys::camera_image, 3 * pixels);
     if (p.boolean("depth")) d.depth = c.variable_array(sensor, keys::camera_depth, pixels);
     if (p.boolean("labels")) d.labels = c.variable_array(sensor, keys::camera_labels, pixels);
-    if (item.robot && !p.boolean("see_self")) d.ignored_robot = std::int32_t(item.robot->number);
+    if (item.robot && !p.boolean("see_self")) d.ignored_robot = item.robot->id;
     d.random_key = fnv1a(c.object_name(sensor), c.random_key(i));
     devices_.push_back(d);
   }

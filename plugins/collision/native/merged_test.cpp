@@ -128,10 +128,10 @@ TEST(CollisionNativeMerged, ARobotInACrowdKeepsTheContactsThatItHasAlone) {
       const auto expected = alone.contacts(*alone.all[0]), all = crowd.contacts(*crowd.all[i]);
       std::vector<Contact> found;
       for (std::size_t k = 0; k < all.size(); ++k) {
-        const bool is_of_scenery = world.robot_of(all[k].other) < 0;
+        const bool is_of_scenery = world.robot_of(all[k].other) == no_robot;
         if (is_of_scenery) found.push_back(all[k]);
         if (k == 0 || all[k].self != all[k - 1].self) continue;
-        EXPECT_TRUE(world.robot_of(all[k - 1].other) < 0 || !is_of_scenery) << "scenery comes before robots";
+        EXPECT_TRUE(world.robot_of(all[k - 1].other) == no_robot || !is_of_scenery) << "scenery comes before robots";
       }
       mixed += !found.empty() && found.size() < all.size();
       ASSERT_EQ(found.size(), expected.size()) << ground << ", " << i;

@@ -76,12 +76,12 @@ void NativeCollision::add_kernel_shapes() {
   }
   ground_robots_.assign(robots_.size(), {});
   for (const Collider& c : index_->colliders)
-    if (c.robot >= 0 && c.body == robots_[std::size_t(c.robot)].base)
-      ground_robots_[std::size_t(c.robot)].poses.base = lane::numbers(c.body_pose);
+    if (c.robot != no_robot && c.body == robots_[index_of(c.robot)].base)
+      ground_robots_[index_of(c.robot)].poses.base = lane::numbers(c.body_pose);
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
     const Collider& c = index_->colliders[k];
-    if (c.robot >= 0)
-      shapes_[k].pose = location_of(ground_robots_[std::size_t(c.robot)].poses, lane::numbers(c.body_pose));
+    if (c.robot != no_robot)
+      shapes_[k].pose = location_of(ground_robots_[index_of(c.robot)].poses, lane::numbers(c.body_pose));
   }
 }
 

@@ -139,9 +139,9 @@ TEST(CollisionNative, ListsAreSortedAndFreeOfDoubles) {
   crowd.step_once();
   World& world = crowd.world();
   const auto pair_of = [&](const Contact& c) {  // scenery as declared, then robots by their keys
-    const std::int32_t other_robot = world.robot_of(c.other);
-    const std::uint64_t key = other_robot < 0 ? 0 : world.robots()[std::size_t(other_robot)]->key;
-    return std::tuple(c.self, other_robot >= 0, key, c.other, c.self_shape, c.other_shape);
+    const RobotId other_robot = world.robot_of(c.other);
+    const std::uint64_t key = other_robot == no_robot ? 0 : world.robots()[index_of(other_robot)]->key;
+    return std::tuple(c.self, other_robot != no_robot, key, c.other, c.self_shape, c.other_shape);
   };
   for (std::size_t r = 0; r < crowd.all.size(); ++r) {
     if (r % 5 == 4) continue;
@@ -240,7 +240,7 @@ TEST(CollisionNative, HullsInAHeapHaveEqualContactsInAnyOrderAndOnAllThreads) {
       EXPECT_EQ(ours[k].normal, theirs[k].normal);
       EXPECT_EQ(ours[k].depth, theirs[k].depth);
       EXPECT_EQ(heap.world().object_name(ours[k].other), other.world().object_name(theirs[k].other));
-      of_robots += heap.world().robot_of(ours[k].other) >= 0;
+      of_robots += heap.world().robot_of(ours[k].other) != no_robot;
     }
   }
   EXPECT_GT(of_robots, 50u);

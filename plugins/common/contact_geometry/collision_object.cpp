@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "collision_object.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 
 #include <algorithm>
 

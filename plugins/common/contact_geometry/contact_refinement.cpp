@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "gradient_descent.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace muro::contact_geometry {
 namespace {

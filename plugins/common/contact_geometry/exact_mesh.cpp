@@ -4,7 +4,7 @@
 #include <map>
 #include <numeric>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace muro::contact_geometry {
 namespace {

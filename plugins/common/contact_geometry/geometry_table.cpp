@@ -21,7 +21,7 @@ void GeometryTable::connect(Connector& c, bool exact, const std::function<void(c
   for (std::uint32_t i = 0; i < c.object_count(); ++i)
     for (const Shape& s : c.constant_array(ObjectId{i}, keys::collision_shapes)) {
       const bool is_heightmap = s.kind == ShapeKind::heightmap;
-      if (is_heightmap && c.robot_of(ObjectId{i}) >= 0)
+      if (is_heightmap && c.robot_of(ObjectId{i}) != no_robot)
         throw Error(quote(c.object_name(ObjectId{i})) + " belongs to a robot and has a heightmap, which is of scenery");
       if (is_heightmap && heightmaps == Heightmaps::left_out)
         by_shape_.push_back({&s, {}});
@@ -125,7 +125,7 @@ void GeometryTable::choose(const TransformedCollider& a, const TransformedCollid
   const auto is_plane = [](const TransformedCollider& c) { return c.shape.kind == ShapeKind::plane; };
   if (is_exact_mesh(number_a) && (is_exact_mesh(number_b) || is_plane(b))) {
     number_a = of_a.convex;
-    if (b.collider->robot >= 0) number_b = of_b.convex;
+    if (b.collider->robot != no_robot) number_b = of_b.convex;
   } else if (is_exact_mesh(number_b) && is_plane(a)) {
     number_b = of_b.convex;
   }

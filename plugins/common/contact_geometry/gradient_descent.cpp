@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gradient_descent.hpp"
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace muro::contact_geometry {
 namespace {

@@ -21,13 +21,13 @@ void PairCollision::connect_own_links(Connector& c, const RobotView& view) {
   if (!c.is_used(view.base(), keys::self_collision, usage::variable)) return;
   OwnLinks& own = own_links_.emplace_back();
   own.is_wanted = c.read(view.base(), keys::self_collision);
-  own.robot = view.number;
+  own.robot = index_of(view.id);
   const LinkBodies bodies(view);
   for (std::uint32_t a = 0; a < view.links.size(); ++a)
     for (std::uint32_t b = a + 1; b < view.links.size(); ++b)
       if (bodies.may_touch(a, b)) own.links.emplace_back(std::minmax(view.links[a].object, view.links[b].object));
   std::sort(own.links.begin(), own.links.end());
-  robots_[view.number].own_links = std::int32_t(own_links_.size()) - 1;
+  robots_[index_of(view.id)].own_links = std::int32_t(own_links_.size()) - 1;
 }
 
 /// Finds the colliders that may touch, and takes the memory that steps need.

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "contact_responsibility.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 
 namespace muro::contact_geometry {
 namespace {
@@ -77,8 +77,8 @@ void PairCollision::connect(Connector& c) {
   if (!is_needed_) return;
   index_ = c.read(world_object, keys::scene_index);
   for (const RobotView* r : c.robots()) {
-    robots_[r->number].world = c.input(r->base(), keys::contact_world, kinematic_world);
-    if (robots_[r->number].list) connect_own_links(c, *r);
+    robots_[index_of(r->id)].world = c.input(r->base(), keys::contact_world, kinematic_world);
+    if (robots_[index_of(r->id)].list) connect_own_links(c, *r);
     for (const Link& link : r->links)
       if (!c.constant_array(link.object, keys::collision_shapes).empty()) c.read(link.object, keys::pose);
   }
@@ -98,8 +98,8 @@ void PairCollision::start() {
     const auto collider = std::uint32_t(first_of_body_.size());
     first_of_body_.push_back(collider > 0 && (&c)[-1].body == c.body ? first_of_body_.back() : collider);
     const bool is_plane = c.shape->kind == ShapeKind::plane;
-    if (c.robot >= 0) {
-      robots_[std::size_t(c.robot)].has_plane |= is_plane;
+    if (c.robot != no_robot) {
+      robots_[index_of(c.robot)].has_plane |= is_plane;
       robots_have_planes_ |= is_plane;
       continue;
     }
@@ -198,7 +198,7 @@ bool PairCollision::has_contacts(const Robot& robot) const {
 /// Whether contacts of the first with the second belong into its list.
 bool PairCollision::lists(std::uint32_t robot, std::uint32_t other) const {
   const Robot &mine = robots_[robot], &theirs = robots_[other];
-  if (!has_contacts(mine) || theirs.shadow_of >= 0 || mine.shadow_of == std::int32_t(other)) return false;
+  if (!has_contacts(mine) || theirs.shadow_of != no_robot || mine.shadow_of == RobotId{other}) return false;
   return mine.lists_all || contact_algorithm_resolves(*mine.world, *theirs.world);
 }
 

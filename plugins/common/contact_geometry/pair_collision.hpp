@@ -94,7 +94,7 @@ class PairCollision : public Algorithm {
     In<std::uint64_t> world;  ///< see keys::contact_world
     std::uint64_t order_key = 0;
     ObjectId base;
-    std::int32_t shadow_of = -1;  ///< robot; see keys::shadow_of
+    RobotId shadow_of = no_robot;  ///< see keys::shadow_of
     bool has_plane = false;
     bool lists_all = false;       ///< its motion, or what chooses that, reads the list
     std::int32_t own_links = -1;  ///< in `own_links_`; -1: they never touch each other

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "transformed_shape.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 
 #include <limits>
 

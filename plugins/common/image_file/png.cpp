@@ -3,7 +3,7 @@
 
 #include <png.h>
 
-#include "muro/toolkit/whole_file.hpp"
+#include "muro/base/whole_file.hpp"
 
 namespace muro::image_file {
 

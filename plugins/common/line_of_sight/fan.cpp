@@ -18,7 +18,7 @@ std::size_t Fan::sector_of(const Vec3& direction) {
   return std::size_t(std::clamp(int((angle + 2) * (0.25 * sectors)), 0, sectors - 1));
 }
 
-void Fan::begin(const Vec3& centre, std::int32_t own) {
+void Fan::begin(const Vec3& centre, RobotId own) {
   centre_ = centre;
   own_ = own;
   usable_ = true;

@@ -16,8 +16,8 @@ class Fan {
  public:
   static constexpr std::size_t most_boxes = 1024;
 
-  /// For lines from `centre` (m, world), of which robot `own` (number; -1: none) is no obstacle. [step]
-  void begin(const Vec3& centre, std::int32_t own);
+  /// For lines from `centre` (m, world), of which robot `own` (or no_robot) is no obstacle. [step]
+  void begin(const Vec3& centre, RobotId own);
   /// A box around an obstacle, and a number by which `any` names it. Returns whether the fan is still usable.
   bool add(const Aabb& box, std::uint32_t item) {
     usable_ = boxes_.size() < most_boxes;
@@ -29,7 +29,7 @@ class Fan {
   void give_up() { usable_ = false; }
 
   const Vec3& centre() const { return centre_; }
-  std::int32_t own() const { return own_; }
+  RobotId own() const { return own_; }
   bool is_usable() const { return usable_; }
   /// Calls visit(item) for the boxes that the segment, from `centre` to `to` or the other way, touches, until one
   /// returns true; returns whether one did.
@@ -56,7 +56,7 @@ class Fan {
   void mark(std::size_t box);
 
   Vec3 centre_ = Vec3::Zero();
-  std::int32_t own_ = -1;
+  RobotId own_ = no_robot;
   bool usable_ = true;
   std::vector<Entry> boxes_;
   std::size_t words_ = 0;                                          ///< of 64 boxes, for each sector

@@ -21,7 +21,7 @@ TEST(Fan, NamesEveryBoxThatALineTouches) {
       boxes.push_back({low, low + Vec3(size(engine), size(engine), size(engine))});
     }
     Fan fan;
-    fan.begin(centre, -1);
+    fan.begin(centre, no_robot);
     for (std::uint32_t i = 0; i < boxes.size(); ++i) ASSERT_TRUE(fan.add(boxes[i], i));
     fan.close();
     for (int i = 0; i < 100; ++i) {
@@ -44,7 +44,7 @@ TEST(Fan, NamesEveryBoxThatALineTouches) {
 
 TEST(Fan, SaysWhenItHoldsTooManyBoxes) {
   Fan fan;
-  fan.begin({0, 0, 0}, -1);
+  fan.begin({0, 0, 0}, no_robot);
   for (std::uint32_t i = 0; i < Fan::most_boxes; ++i) EXPECT_TRUE(fan.add({{1, 1, 1}, {2, 2, 2}}, i));
   EXPECT_FALSE(fan.add({{1, 1, 1}, {2, 2, 2}}, 0));
   EXPECT_FALSE(fan.is_usable());

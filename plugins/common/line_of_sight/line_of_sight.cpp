@@ -50,7 +50,7 @@ LineOfSight::Solid LineOfSight::load(Connector& c, const Shape& shape) {
 void LineOfSight::connect(Connector& c) {
   scene_ = c.read(world_object, keys::scene_index);
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {
-    const std::span<const Shape> shapes = c.constant_array(ObjectId(i), keys::collision_shapes);
+    const Rows<Shape> shapes = c.constant_array(ObjectId(i), keys::collision_shapes);
     for (std::uint32_t k = 0; k < shapes.size(); ++k) {
       if (shapes[k].kind != ShapeKind::mesh && shapes[k].kind != ShapeKind::heightmap) continue;
       try {
@@ -91,7 +91,7 @@ bool LineOfSight::is_cut_by_robot(const Segment& segment, std::uint32_t robot) c
   return false;
 }
 
-std::uint32_t LineOfSight::obstacles(const Vec3& a, const Vec3& b, std::int32_t own, std::int32_t other,
+std::uint32_t LineOfSight::obstacles(const Vec3& a, const Vec3& b, RobotId own, RobotId other,
                                      std::uint32_t most) const {
   if (!a.allFinite() || !b.allFinite()) return most;
   const Segment segment = line(a, b);
@@ -99,13 +99,13 @@ std::uint32_t LineOfSight::obstacles(const Vec3& a, const Vec3& b, std::int32_t 
   any_on(scene_->scenery, segment, [&](std::uint32_t i) { return is_cut(segment, i) && ++count >= most; });
   if (count >= most) return count;
   any_on(scene_->moving, segment, [&](std::uint32_t robot) {
-    const auto number = std::int32_t(robot);
-    return number != own && number != other && is_cut_by_robot(segment, robot) && ++count >= most;
+    const RobotId id{robot};
+    return id != own && id != other && is_cut_by_robot(segment, robot) && ++count >= most;
   });
   return count;
 }
 
-void LineOfSight::look_around(const Vec3& centre, std::int32_t own, double reach, std::size_t lines, Fan& fan) const {
+void LineOfSight::look_around(const Vec3& centre, RobotId own, double reach, std::size_t lines, Fan& fan) const {
   fan.begin(centre, own);
   if (!centre.allFinite()) return;
   const double far = reach * (1 + 1e-9) + 2 * lift;
@@ -121,7 +121,7 @@ void LineOfSight::look_around(const Vec3& centre, std::int32_t own, double reach
       each_leaf(scene_->scenery, region,
                 [&](const BvhNode& leaf, std::uint32_t collider) { return add(leaf.bounds, collider); }) &&
       each_leaf(scene_->moving, region, [&](const BvhNode&, std::uint32_t robot) {
-        return std::int32_t(robot) == own || add(scene_->robots[robot].bounds, first_robot() + robot);
+        return RobotId{robot} == own || add(scene_->robots[robot].bounds, first_robot() + robot);
       });
   if (is_all)
     fan.close();
@@ -129,11 +129,11 @@ void LineOfSight::look_around(const Vec3& centre, std::int32_t own, double reach
     fan.give_up();
 }
 
-std::uint32_t LineOfSight::obstacles(const Fan& fan, const Vec3& to, std::int32_t other, std::uint32_t most) const {
+std::uint32_t LineOfSight::obstacles(const Fan& fan, const Vec3& to, RobotId other, std::uint32_t most) const {
   if (!fan.is_usable()) return obstacles(fan.centre(), to, fan.own(), other, most);
   if (!fan.centre().allFinite() || !to.allFinite()) return most;
   const Segment segment = line(fan.centre(), to);
-  const std::uint32_t other_item = other < 0 ? UINT32_MAX : first_robot() + std::uint32_t(other);
+  const std::uint32_t other_item = other == no_robot ? UINT32_MAX : first_robot() + index_of(other);
   std::uint32_t count = 0;
   fan.any(to, segment, [&](std::uint32_t item) {
     if (item == other_item) return false;

@@ -25,18 +25,18 @@ class LineOfSight {
   }
   /// How many obstacles the line from `a` to `b` (m, world) passes through, at most `most`: each shape of the scenery
   /// counts, and each robot as one. The line runs 1 mm above its ends: what stands on a floor is in its way, the floor
-  /// is not. Robots `own` and `other` (numbers; -1: none) do not count. From `b` to `a` there are exactly as many.
+  /// is not. Robots `own` and `other` (or no_robot) do not count. From `b` to `a` there are exactly as many.
   /// [step, any thread]
-  std::uint32_t obstacles(const Vec3& a, const Vec3& b, std::int32_t own, std::int32_t other,
+  std::uint32_t obstacles(const Vec3& a, const Vec3& b, RobotId own, RobotId other,
                           std::uint32_t most = 1) const;
-  bool is_clear(const Vec3& a, const Vec3& b, std::int32_t own, std::int32_t other) const {
+  bool is_clear(const Vec3& a, const Vec3& b, RobotId own, RobotId other) const {
     return obstacles(a, b, own, other) == 0;
   }
   /// Lets `fan` know what may be in the way of about so many `lines` from `centre` (m, world) that are no longer than
   /// `reach` (m), robot `own` excepted. Many lines from one point take less time so. [step, any thread]
-  void look_around(const Vec3& centre, std::int32_t own, double reach, std::size_t lines, Fan& fan) const;
+  void look_around(const Vec3& centre, RobotId own, double reach, std::size_t lines, Fan& fan) const;
   /// The number of obstacles from the centre of a fan, with which this object has looked around in this step, to `to`.
-  std::uint32_t obstacles(const Fan& fan, const Vec3& to, std::int32_t other, std::uint32_t most = 1) const;
+  std::uint32_t obstacles(const Fan& fan, const Vec3& to, RobotId other, std::uint32_t most = 1) const;
 
  private:
   struct TriangleMesh {

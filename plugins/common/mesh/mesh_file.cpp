@@ -11,7 +11,7 @@
 #include <set>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "plugins/common/parser_process/limits.hpp"
 #include "plugins/common/text/lfs_pointer.hpp"
 #include "plugins/common/text/one_line.hpp"

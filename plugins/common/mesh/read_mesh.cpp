@@ -5,7 +5,7 @@
 
 #include "mesh_file.hpp"
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 
 namespace muro::mesh {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "mesh_file.hpp"
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 #include "read_mesh.hpp"
 #include "srgb.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "inertia.hpp"
-#include "muro/toolkit/bounds.hpp"
-#include "muro/toolkit/elementary.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/bounds.hpp"
+#include "muro/base/elementary.hpp"
+#include "muro/base/limits.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "message.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 
 namespace muro::model_file {
 

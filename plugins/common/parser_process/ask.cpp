@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "muro/toolkit/whole_library.hpp"
+#include "muro/base/whole_library.hpp"
 #include "protocol.hpp"
 
 namespace muro::parser_process {

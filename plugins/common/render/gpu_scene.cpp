@@ -119,13 +119,13 @@ GpuScene::~GpuScene() {
 void GpuScene::make_groups() {
   const std::vector<Instance>& instances = scene_->instances();
   for (std::uint32_t i = 0; i < instances.size(); ++i) {
-    const std::int32_t robot = instances[i].body.robot;
-    if (!groups_.empty() && robot >= 0 && groups_.back().robot == robot)
+    const RobotId robot = instances[i].body.robot;
+    if (!groups_.empty() && robot != no_robot && groups_.back().robot == robot)
       ++groups_.back().count;
     else
       groups_.push_back({i, 1, robot});
   }
-  const auto is_robot = [](const Group& g) { return g.robot >= 0; };
+  const auto is_robot = [](const Group& g) { return g.robot != no_robot; };
   first_robot_ = std::size_t(std::find_if(groups_.begin(), groups_.end(), is_robot) - groups_.begin());
 }
 
@@ -168,7 +168,7 @@ void GpuScene::add(const Vec3& eye, std::uint32_t number, double range) {
   data.in_metres = instance.is_infinite ? 1 : 0;
 }
 
-void GpuScene::cull(const Vec3& eye, const Frustum& frustum, double range, std::int32_t ignored_robot) {
+void GpuScene::cull(const Vec3& eye, const Frustum& frustum, double range, RobotId ignored_robot) {
   for (auto& list : selected_) list.clear();
   const auto is_visible = [&](const Vec3& centre, double radius) {
     const Vec3 at = centre - eye;
@@ -178,7 +178,7 @@ void GpuScene::cull(const Vec3& eye, const Frustum& frustum, double range, std::
     return true;
   };
   for (const Group& g : groups_) {
-    if (g.robot >= 0 && g.robot == ignored_robot) continue;
+    if (g.robot != no_robot && g.robot == ignored_robot) continue;
     const bool is_infinite = scene_->instances()[g.first].is_infinite;
     if (!is_infinite && !is_visible(g.centre, g.radius)) continue;
     for (std::uint32_t i = g.first; i < g.first + g.count; ++i)

@@ -29,7 +29,7 @@ class GpuScene {
   void update();
   /// Selects the instances inside of the frustum and nearer than `range` (m) to `eye` (m, the camera's position), with
   /// the poses of the last update.
-  void cull(const Vec3& eye, const Frustum& frustum, double range, std::int32_t ignored_robot);
+  void cull(const Vec3& eye, const Frustum& frustum, double range, RobotId ignored_robot);
   /// Draws what was selected, with the program in use: shaders::instance_vertex.
   void draw() const;
 
@@ -55,7 +55,7 @@ class GpuScene {
   /// The instances of one robot, or one of scenery, and their bounding sphere.
   struct Group {
     std::uint32_t first = 0, count = 0;
-    std::int32_t robot = -1;
+    RobotId robot = no_robot;
     Vec3 centre = Vec3::Zero();
     double radius = 0;
   };

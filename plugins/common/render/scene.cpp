@@ -6,7 +6,7 @@
 
 #include "heightmap_surface.hpp"
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 #include "plugins/common/heightmap/solid.hpp"
 #include "plugins/common/mesh/collision_mesh.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -50,12 +50,12 @@ bool SolidShape::contains(const Vec3& point) const {
 void Scene::connect(Connector& c, ShapeSource source, double tolerance) {
   tolerance_ = tolerance;
   const auto shapes_of = [&](ObjectId object) {
-    const std::span<const Shape> collision = c.constant_array(object, keys::collision_shapes);
+    const Rows<Shape> collision = c.constant_array(object, keys::collision_shapes);
     if (source == ShapeSource::collision) return collision;
-    const std::span<const Shape> visual = c.constant_array(object, keys::visual_shapes);
+    const Rows<Shape> visual = c.constant_array(object, keys::visual_shapes);
     return visual.empty() ? collision : visual;
   };
-  const auto add_body = [&](const SceneBody& body, std::span<const Shape> shapes) {
+  const auto add_body = [&](const SceneBody& body, Rows<Shape> shapes) {
     Instance instance;
     instance.body = body;
     for (const Shape& s : shapes) {
@@ -142,7 +142,7 @@ void Scene::add_mesh(Connector& c, const Shape& shape, Instance instance, ShapeS
 void Scene::report_unreadable(Connector& c, const Shape& shape, ObjectId body, const std::string& reason) {
   const std::string path(c.text(shape.mesh));
   const bool is_first = unreadable_.try_emplace(path, reason).second;
-  const std::span<const Shape> collision = c.constant_array(body, keys::collision_shapes);
+  const Rows<Shape> collision = c.constant_array(body, keys::collision_shapes);
   const bool collides = std::any_of(collision.begin(), collision.end(),
                                     [&](const Shape& s) { return s.kind == shape.kind && c.text(s.mesh) == path; });
   if (collides)

@@ -14,7 +14,7 @@ namespace muro::scene_bodies {
 
 struct SceneBody {
   ObjectId object = no_object;
-  std::int32_t robot = -1;  ///< number; -1: scenery
+  RobotId robot = no_robot;  ///< no_robot: scenery
   In<Pose> link_pose{};     ///< of a robot's link; unset for scenery
   Pose scenery_pose{};
 
@@ -26,21 +26,21 @@ struct SceneBody {
 template <class ShapesOf, class Visit>
 void for_each_body(Connector& c, ShapesOf shapes_of, Visit visit) {
   const auto visit_body = [&](SceneBody body) {
-    const std::span<const Shape> found = shapes_of(body.object);
+    const Rows<Shape> found = shapes_of(body.object);
     if (found.empty()) return;
     const std::vector<Shape> shapes(found.begin(), found.end());
-    if (body.robot >= 0) body.link_pose = c.read(body.object, keys::pose);
-    visit(std::as_const(body), std::span<const Shape>(shapes));
+    if (body.robot != no_robot) body.link_pose = c.read(body.object, keys::pose);
+    visit(std::as_const(body), Rows<Shape>(shapes));
   };
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {
     SceneBody body{.object = ObjectId(i)};
-    if (c.robot_of(body.object) >= 0) continue;
+    if (c.robot_of(body.object) != no_robot) continue;
     body.scenery_pose = c.constant(body.object, keys::pose).value_or(Pose{});
     visit_body(std::move(body));
   }
   for (const RobotView* robot : c.robots()) {
     if (c.constant(robot->base(), keys::shadow_of)) continue;
-    for (const Link& link : robot->links) visit_body({.object = link.object, .robot = std::int32_t(robot->number)});
+    for (const Link& link : robot->links) visit_body({.object = link.object, .robot = robot->id});
   }
 }
 

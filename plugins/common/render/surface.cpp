@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace muro::render {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "muro/toolkit/printable.hpp"
+#include "muro/base/printable.hpp"
 
 namespace muro {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 #include "muro/toolkit/link_pose.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/wheels/standing.hpp"

@@ -8,7 +8,7 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/robot.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "muro/vocabulary.hpp"
 #include "parameters.hpp"
 

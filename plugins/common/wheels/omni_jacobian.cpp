@@ -3,7 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace muro::wheels {
 

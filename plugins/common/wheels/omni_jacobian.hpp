@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "omni_wheels.hpp"
 #include "planar_motion.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "plugins/common/text/counted.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "wheel_finder.hpp"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "muro/geometry.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro/toolkit/rotations.hpp"
 
 namespace muro::wheels {

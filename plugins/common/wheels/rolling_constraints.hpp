@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "planar_motion.hpp"
 #include "steered_wheels.hpp"
 

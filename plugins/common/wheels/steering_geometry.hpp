@@ -23,7 +23,7 @@ struct SteeringGeometry {
 };
 
 /// How `wheels` of a robot with these links are steered. [setup]
-inline SteeringGeometry steering_geometry(std::span<const Link> links, std::span<const SteeredWheel> wheels) {
+inline SteeringGeometry steering_geometry(Rows<Link> links, std::span<const SteeredWheel> wheels) {
   SteeringGeometry geometry;
   for (const SteeredWheel& wheel : wheels) {
     WheelSteering steering{.zero_heading = PlanarWheel(wheel).zero_heading};

@@ -102,7 +102,7 @@ void Terrain::connect(const Connector& c) {
   is_connected_ = true;
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {
     const ObjectId object{i};
-    if (c.robot_of(object) >= 0) continue;
+    if (c.robot_of(object) != no_robot) continue;
     const Pose body = c.constant(object, keys::pose).value_or(Pose{});
     ShapeOfObject where{object};
     for (const Shape& s : c.constant_array(object, keys::collision_shapes)) {

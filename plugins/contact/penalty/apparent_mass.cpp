@@ -25,7 +25,7 @@ MassProperties properties(double inverse_mass, const Vec3& com, const Mat3& inve
 /// The bodies of a robot at rest, in the frame of its base.
 class Tree {
  public:
-  Tree(std::span<const Link> links, std::span<const double> positions) : links_(links), in_base_(links.size()) {
+  Tree(Rows<Link> links, std::span<const double> positions) : links_(links), in_base_(links.size()) {
     for (std::size_t i = 1; i < links.size(); ++i)
       in_base_[i] = in_base_[std::size_t(links[i].parent)] * pose_in_parent(links[i], positions[i]);
   }
@@ -53,7 +53,7 @@ class Tree {
   }
 
  private:
-  std::span<const Link> links_;
+  Rows<Link> links_;
   std::vector<Pose> in_base_;
 };
 
@@ -63,7 +63,7 @@ MassProperties mass_properties_of(const Inertia& body) {
   return properties(1 / body.mass, body.com, body.tensor().inverse());
 }
 
-ApparentMasses apparent_masses(std::span<const Link> links, std::span<const Inertia> inertias,
+ApparentMasses apparent_masses(Rows<Link> links, std::span<const Inertia> inertias,
                                std::span<const double> positions, std::span<const std::uint32_t> bodies) {
   const Tree tree(links, positions);
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(tree.columns(), tree.columns());

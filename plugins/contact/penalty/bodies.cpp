@@ -8,7 +8,7 @@
 
 #include "apparent_mass.hpp"
 #include "muro/toolkit/mass_properties.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 #include "muro/vocabulary/contact.hpp"
 #include "plugins/common/text/quote.hpp"
 
@@ -30,7 +30,7 @@ void Bodies::connect(Connector& c) {
         materials.push_back({s.surface.restitution, damping_ratio_of(s.surface.restitution)});
     }
   }
-  robot_of.assign(c.robots().size(), no_robot);
+  robot_of.assign(c.robots().size(), not_dynamic);
   for (const RobotView* robot : c.robots()) connect_robot(c, *robot, resists_turning);
   if (!robots.empty()) connect_kinematic_robots(c);
   by_order_key.resize(robots.size());
@@ -60,7 +60,7 @@ void Bodies::sort_by_order_key(std::vector<std::uint32_t>& numbers) const {
 
 void Bodies::connect_kinematic_robots(Connector& c) {
   for (const RobotView* view : c.robots()) {
-    if (robot_of[view->number] != no_robot || c.constant(view->base(), keys::shadow_of)) continue;
+    if (robot_of[index_of(view->id)] != not_dynamic || c.constant(view->base(), keys::shadow_of)) continue;
     const auto has_shapes = [&](const Link& link) {
       return !c.constant_array(link.object, keys::collision_shapes).empty();
     };
@@ -75,7 +75,7 @@ void Bodies::connect_by_name(Connector& c) {
   for (const RobotView* robot : c.robots()) connect_links(c, *robot);
   const auto is_read = [&](ObjectId base) { return c.is_used(base, keys::contact_wrenches_of_law, usage::read); };
   for (const RobotView* robot : c.robots()) {
-    if (robot_of[robot->number] == no_robot || !is_read(robot->base())) continue;
+    if (robot_of[index_of(robot->id)] == not_dynamic || !is_read(robot->base())) continue;
     tells_contacts = true;
     tells_kinematic_robots =
         tells_kinematic_robots || !c.constant_array(robot->base(), keys::motion_level_names).empty();
@@ -92,7 +92,7 @@ void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_tur
   for (const Link& link : view.links) {
     Body& b = all[index_of(link.object)];
     b.model = index_of(view.base());
-    b.robot = moved ? std::int32_t(robots.size()) : no_robot;
+    b.robot = moved ? std::int32_t(robots.size()) : not_dynamic;
     if (c.constant_array(link.object, keys::collision_shapes).empty()) continue;
     b.pose = c.read(link.object, keys::pose).get();
     b.twist = c.read(link.object, keys::twist).get();
@@ -110,15 +110,15 @@ void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_tur
   r.lag = c.input(view.base(), keys::twist_lag, 0.0);
   r.order_key = view.key;
   r.is_shadow = c.constant(view.base(), keys::shadow_of).has_value();
-  robot_of[view.number] = std::int32_t(robots.size());
+  robot_of[index_of(view.id)] = std::int32_t(robots.size());
   robots.push_back(r);
   apparent_masses.emplace_back();
 }
 
 /// Of a robot that forces move: its base, and the links whose motion reads the forces on them, are dynamic bodies.
 void Bodies::connect_links(Connector& c, const RobotView& view) {
-  if (robot_of[view.number] == no_robot) return;
-  Robot& r = robots[std::size_t(robot_of[view.number])];
+  if (robot_of[index_of(view.id)] == not_dynamic) return;
+  Robot& r = robots[std::size_t(robot_of[index_of(view.id)])];
   r.first_body = std::uint32_t(dynamic_bodies.size());
   std::vector<std::uint32_t> links{0};
   for (std::uint32_t i = 0; i < view.links.size(); ++i) {
@@ -146,7 +146,7 @@ void Bodies::connect_links(Connector& c, const RobotView& view) {
   const Inertia composite = composite_inertia(view.links, inertias, positions);
   r.mass = composite.mass;
   if (r.is_single_body) return add_dynamic_body(c, view.base(), mass_properties_of(composite));
-  const ApparentMasses& apparent = apparent_masses[std::size_t(robot_of[view.number])] =
+  const ApparentMasses& apparent = apparent_masses[std::size_t(robot_of[index_of(view.id)])] =
       penalty::apparent_masses(view.links, inertias, positions, links);
   for (std::size_t i = 0; i < links.size(); ++i) add_dynamic_body(c, view.links[links[i]].object, apparent.bodies[i]);
 }

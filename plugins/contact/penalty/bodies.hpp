@@ -19,15 +19,16 @@
 
 namespace muro::penalty {
 
-inline constexpr std::int32_t no_robot = -1;
+/// In place of an index in Bodies::robots: no force moves it.
+inline constexpr std::int32_t not_dynamic = -1;
 
 /// Any object.
 struct Body {
   const Pose* pose = nullptr;               ///< null: scenery
   const Twist* twist = nullptr;             ///< null: scenery, which does not move
-  std::int32_t robot = no_robot;            ///< in Bodies::robots, when forces can move it
+  std::int32_t robot = not_dynamic;            ///< in Bodies::robots, when forces can move it
   std::uint32_t dynamic_body = 0;           ///< in Bodies::dynamic_bodies, the same
-  std::int32_t kinematic_robot = no_robot;  ///< in Bodies::kinematic_robots, of a robot that forces never move
+  std::int32_t kinematic_robot = not_dynamic;  ///< in Bodies::kinematic_robots, of a robot that forces never move
   std::uint32_t model = 0;                  ///< equal for all bodies of a robot
   std::uint64_t name = 0;                   ///< hash
   std::uint32_t first_shape = 0;            ///< in Bodies::shapes
@@ -98,7 +99,7 @@ struct Bodies {
   std::vector<KinematicRobot> kinematic_robots;
   std::vector<DynamicBody> dynamic_bodies;
   std::vector<std::string> names;               ///< by object id, for people
-  std::vector<std::int32_t> robot_of;           ///< by robot number: in `robots`, or no_robot
+  std::vector<std::int32_t> robot_of;           ///< by robot number: in `robots`, or not_dynamic
   std::vector<MassProperties> masses;           ///< all different
   std::vector<ApparentMasses> apparent_masses;  ///< of `robots`; empty of those that are one body
   std::vector<Material> materials;              ///< of all shapes; a pair has the larger restitution of two
@@ -120,13 +121,13 @@ struct Bodies {
     const Body& body = (*this)[id];
     return body.twist ? body.twist->at(point - body.pose->position) : Vec3::Zero();
   }
-  /// The robot of the body if forces move it at present, or no_robot.
+  /// The robot of the body if forces move it at present, or not_dynamic.
   std::int32_t dynamic_robot_of(const Body& body) const {
-    return is_moved_by_forces(world_of(body.robot)) ? body.robot : no_robot;
+    return is_moved_by_forces(world_of(body.robot)) ? body.robot : not_dynamic;
   }
-  /// keys::contact_world of a robot, or of no_robot: scenery and robots that forces never move.
+  /// keys::contact_world of a robot, or of not_dynamic: scenery and robots that forces never move.
   std::uint64_t world_of(std::int32_t robot) const {
-    return robot == no_robot ? kinematic_world : *robots[std::size_t(robot)].world;
+    return robot == not_dynamic ? kinematic_world : *robots[std::size_t(robot)].world;
   }
   /// Length of the steps (s) of a motion that has impacts act in the instant in which they happen; 0 for others.
   double impact_step_of(std::int32_t robot) const {
@@ -144,9 +145,9 @@ struct Bodies {
   /// null.
   const ListOut<ContactWrench>* list_of_kinematic(ObjectId body) const {
     const Body& b = (*this)[body];
-    if (b.robot != no_robot)
+    if (b.robot != not_dynamic)
       return is_moved_by_forces(world_of(b.robot)) ? nullptr : &robots[std::size_t(b.robot)].told;
-    if (b.kinematic_robot == no_robot) return nullptr;
+    if (b.kinematic_robot == not_dynamic) return nullptr;
     const KinematicRobot& robot = kinematic_robots[std::size_t(b.kinematic_robot)];
     return robot.is_read ? &robot.told : nullptr;
   }

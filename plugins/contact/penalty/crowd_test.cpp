@@ -38,7 +38,7 @@ struct Crowd : ContactScene {
   int touching() {
     int count = 0;
     for (const RobotView* r : robots)
-      for (const Contact& c : contacts(*r)) count += world().robot_of(c.other) >= 0;
+      for (const Contact& c : contacts(*r)) count += world().robot_of(c.other) != no_robot;
     return count;
   }
   void expect_the_same_poses(const std::vector<Pose>& expected) {

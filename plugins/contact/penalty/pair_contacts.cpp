@@ -87,7 +87,7 @@ void PairContacts::set_up(std::uint32_t self) {
 
 /// Whether robot `self` computes the contact: both robots of a pair list it.
 bool PairContacts::computes(std::uint32_t self, std::int32_t other) const {
-  if (other == no_robot) return true;
+  if (other == not_dynamic) return true;
   const std::uint64_t mine = bodies_.robots[self].order_key, theirs = bodies_.robots[std::size_t(other)].order_key;
   return mine != theirs ? mine < theirs : self < std::uint32_t(other);
 }
@@ -97,8 +97,8 @@ bool PairContacts::computes_contacts_with(std::uint32_t self, ObjectId body, std
   other_robot = bodies_.dynamic_robot_of(bodies_[body]);
   if (!contact_algorithm_resolves(*bodies_.robots[self].world, bodies_.world_of(other_robot))) return false;
   // Nothing is computed for robots that list nothing: a shadow's partner, and one handed over after the collision step.
-  const bool takes_part = other_robot != no_robot && (*flags_)[std::size_t(other_robot)] != 0;
-  if (bodies_.robots[self].is_shadow || !takes_part) other_robot = no_robot;
+  const bool takes_part = other_robot != not_dynamic && (*flags_)[std::size_t(other_robot)] != 0;
+  if (bodies_.robots[self].is_shadow || !takes_part) other_robot = not_dynamic;
   if (computes(self, other_robot)) return true;
   std::vector<std::uint32_t>& owners = record(self).owners;
   const auto owner = std::uint32_t(other_robot);
@@ -165,12 +165,12 @@ void PairContacts::update_computed(std::uint32_t self) {
   const double lag = *bodies_.robots[self].lag;
   bool is_same = !known.computed.empty(), has_lag = lag != 0;
   for (Run& run : known.runs) {
-    std::int32_t other_robot = no_robot;
+    std::int32_t other_robot = not_dynamic;
     const bool is_computed = computes_contacts_with(self, run.other, other_robot);
     is_same = is_same && is_computed == run.is_computed && other_robot == run.other_robot;
     run.is_computed = is_computed;
     run.other_robot = other_robot;
-    has_lag = has_lag || (other_robot != no_robot && *bodies_.robots[std::size_t(other_robot)].lag != 0);
+    has_lag = has_lag || (other_robot != not_dynamic && *bodies_.robots[std::size_t(other_robot)].lag != 0);
   }
   if (!is_same) find_computed(self);
   const Contact* const contacts = (*bodies_.robots[self].contacts).data();
@@ -180,7 +180,7 @@ void PairContacts::update_computed(std::uint32_t self) {
     p.contact = contacts[c.place].point.data();
     if (!has_lag) continue;
     p.lag = lag;
-    p.other_lag = c.other_robot == no_robot ? 0 : *bodies_.robots[std::size_t(c.other_robot)].lag;
+    p.other_lag = c.other_robot == not_dynamic ? 0 : *bodies_.robots[std::size_t(c.other_robot)].lag;
   }
   find_cells(known);
   kernels_.move(known.points.data(), int(known.points.size()), context_.stiffness.h, has_lag);
@@ -227,7 +227,7 @@ void PairContacts::find_patches(std::uint32_t self) {
 std::uint32_t PairContacts::add_to_patch(Record& me, const Computed& c, const Contact& contact) const {
   const V3 normal = plain(contact.normal);
   auto found = std::find_if(me.patches.begin(), me.patches.end(), [&](const ContactPatch& p) {
-    return p.body == c.body && p.model == c.model && (c.other_robot == no_robot || p.other_body == c.other_body) &&
+    return p.body == c.body && p.model == c.model && (c.other_robot == not_dynamic || p.other_body == c.other_body) &&
            dot(p.patch.normal, normal) > same_direction;
   });
   if (found == me.patches.end()) {
@@ -243,7 +243,7 @@ std::uint32_t PairContacts::add_to_patch(Record& me, const Computed& c, const Co
 /// The effective mass of a patch, divided among its points.
 law::EffectiveMass<double> PairContacts::effective_mass_of(const Mobility& self, const ContactPatch& p) const {
   const law::InverseEffectiveMass<double> middle = p.patch.at_middle(self);
-  if (p.other == no_robot) return {middle, p.patch.count};
+  if (p.other == not_dynamic) return {middle, p.patch.count};
   const Mobility& other = mobility(p.other, p.other_body);
   return {middle + p.patch.seen_from(other.centre).at_middle(other), p.patch.count};
 }
@@ -329,7 +329,7 @@ void PairContacts::apply_forces(std::uint32_t self) {
     const Vec3 force = Vec3::Map(point.force);
     ContactPatch& patch = me.patches[c.patch];
     const Vec3 moment = point.moment * contact.normal;
-    if (patch.other != no_robot) {
+    if (patch.other != not_dynamic) {
       apply_to_pair(c, patch, force, moment, contact.point);
     } else {
       Wrench& wrench = *bodies_.dynamic_bodies[patch.body].wrench;
@@ -360,7 +360,7 @@ Vec3 PairContacts::resist_turning(std::uint32_t self, ContactPatch& patch, const
   };
   double inverse_inertia = largest_eigenvalue_bound(mobility(std::int32_t(self), patch.body).inertia);
   double load = record(self).load + double(record(self).patches.size());
-  if (patch.other != no_robot) {
+  if (patch.other != not_dynamic) {
     inverse_inertia += largest_eigenvalue_bound(mobility(patch.other, patch.other_body).inertia);
     load += record(std::uint32_t(patch.other)).load;
   }
@@ -372,14 +372,14 @@ Vec3 PairContacts::resist_turning(std::uint32_t self, ContactPatch& patch, const
                          turning, normal_force, 1 / (inverse_inertia * patch.patch.count));
   robot.turning_springs.push_back(turned);
   bodies_.dynamic_bodies[patch.body].wrench->torque += torque;
-  if (patch.other != no_robot) patch.reaction.torque -= torque;
+  if (patch.other != not_dynamic) patch.reaction.torque -= torque;
   return torque;
 }
 
 void PairContacts::set_load(std::uint32_t self, ContactPatch& p) const {
   p.has_load = true;
-  p.load = record(self).load + (p.other == no_robot ? 0 : record(std::uint32_t(p.other)).load);
-  if (p.other == no_robot) return;
+  p.load = record(self).load + (p.other == not_dynamic ? 0 : record(std::uint32_t(p.other)).load);
+  if (p.other == not_dynamic) return;
   p.velocity = centre_velocity(std::int32_t(self), p.body);
   p.other_velocity = centre_velocity(p.other, p.other_body);
 }

@@ -64,7 +64,7 @@ class PairContacts {
   /// A contact patch in an impact.
   struct ImpactPatch {
     Vec3 normal;
-    std::int32_t other;             ///< in Bodies::robots, or no_robot
+    std::int32_t other;             ///< in Bodies::robots, or not_dynamic
     std::uint32_t model;            ///< of the other
     bool is_resolved = false;       ///< its points have their impulses
     Wrench reaction{};              ///< on the other's base
@@ -80,7 +80,7 @@ class PairContacts {
   struct ContactPatch {
     Patch patch;                   ///< from the centre of the body
     std::uint32_t body;            ///< of the robot, in Bodies::dynamic_bodies
-    std::int32_t other;            ///< in Bodies::robots, or no_robot
+    std::int32_t other;            ///< in Bodies::robots, or not_dynamic
     std::uint32_t other_body = 0;  ///< in Bodies::dynamic_bodies, of a robot
     std::uint32_t model;           ///< of the other
     law::EffectiveMass<double> effective_mass{};
@@ -94,14 +94,14 @@ class PairContacts {
     ObjectId other;
     std::uint32_t end;                    ///< behind the last, in the list
     bool is_computed = false;             ///< by this robot
-    std::int32_t other_robot = no_robot;  ///< in Bodies::robots, if forces on it count
+    std::int32_t other_robot = not_dynamic;  ///< in Bodies::robots, if forces on it count
   };
   /// A contact that a robot computes.
   struct Computed {
     std::uint64_t pair;
     std::uint32_t place;                    ///< in the list
     std::uint32_t body, other_body, model;  ///< as in ContactPatch
-    std::int32_t other_robot;               ///< in Bodies::robots, or no_robot
+    std::int32_t other_robot;               ///< in Bodies::robots, or not_dynamic
     double zeta;                            ///< damping ratio of the normal
     bool is_of_disc;                        ///< see Bodies::is_of_disc
     std::uint32_t patch = 0;                ///< in Record::patches, or one of the above

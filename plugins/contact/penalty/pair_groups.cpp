@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "pair_contacts.hpp"
 #include "plugins/common/contact_geometry/contact_load.hpp"
 #include "plugins/common/lanes/vectors.hpp"
@@ -35,7 +35,7 @@ bool is_decoupled(const Robot& robot) { return !robot.is_single_body && is_resol
 /// Whether what the contact does hangs on what else its robots carry. Two robots of one body, alike in mass, that touch
 /// at their sides do not.
 bool PairContacts::carries(std::uint32_t self, const ContactPatch& patch) const {
-  if (patch.other == no_robot) return false;
+  if (patch.other == not_dynamic) return false;
   const Robot &own = bodies_.robots[self], &other = bodies_.robots[std::size_t(patch.other)];
   if (!own.is_single_body || !other.is_single_body) return true;
   if (std::max(own.mass, other.mass) > similar_masses * std::min(own.mass, other.mass)) return true;
@@ -58,7 +58,7 @@ void PairContacts::find_groups() {
     records_[i].group = no_group;
     if (bodies_.is_solved_alone(context_, robots_[i])) carrying_[root_of(i)] = 1, any = true;
     for (const ContactPatch& p : records_[i].patches) {
-      if (p.other == no_robot) continue;
+      if (p.other == not_dynamic) continue;
       const std::uint32_t a = root_of(i), b = root_of(record_of_[std::size_t(p.other)]);
       const bool carry = carrying_[a] != 0 || carrying_[b] != 0 || carries(robots_[i], p);
       roots_[std::max(a, b)] = std::min(a, b);
@@ -113,7 +113,7 @@ void PairContacts::find_touched(std::uint32_t self) {
   for (const Computed& c : known_[self].computed) {
     if (!is_solved(c)) continue;
     record(self).add_touched(c.body);
-    if (c.other_robot != no_robot) record(std::uint32_t(c.other_robot)).add_touched(c.other_body);
+    if (c.other_robot != not_dynamic) record(std::uint32_t(c.other_robot)).add_touched(c.other_body);
   }
 }
 
@@ -172,7 +172,7 @@ void PairContacts::recall(std::uint32_t self, std::size_t place, Computed& c, do
   if (!c.lasts && approach > context_.impact_speed && c.zeta < max_damping_ratio)
     now.rebounds = 1.5 * M_PI / context_.stiffness.omega;
   const bool is_exact = c.is_exact =
-      is_known(robot) && (c.other_robot == no_robot || is_known(bodies_.robots[std::size_t(c.other_robot)]));
+      is_known(robot) && (c.other_robot == not_dynamic || is_known(bodies_.robots[std::size_t(c.other_robot)]));
   if (is_exact || !before || !(now.load > 0)) {
     now.more = 0;
     return;
@@ -197,18 +197,18 @@ void PairContacts::recall_contacts(std::uint32_t self) {
     c.solved.load = 0;
     const Vec3 impulse = context_.stiffness.h * Vec3::Map(point.force);
     record(self).add_impulse(c.body, impulse, contacts[c.place].point);
-    if (c.other_robot != no_robot)
+    if (c.other_robot != not_dynamic)
       record(std::uint32_t(c.other_robot)).add_impulse(c.other_body, -impulse, contacts[c.place].point);
   }
 }
 
 bool PairContacts::has_joints(std::int64_t robot) const {
-  return robot != no_robot && !bodies_.robots[std::size_t(robot)].is_single_body;
+  return robot != not_dynamic && !bodies_.robots[std::size_t(robot)].is_single_body;
 }
 
 /// kg: what links and bodies seem to weigh across the normal, for a point of the patch.
 double PairContacts::apparent_mass_across(std::uint32_t self, const Computed& c) const {
-  const double other = c.other_robot == no_robot ? 1 : record(std::uint32_t(c.other_robot)).shared;
+  const double other = c.other_robot == not_dynamic ? 1 : record(std::uint32_t(c.other_robot)).shared;
   return record(self).patches[c.patch].effective_mass.across / std::max(record(self).shared, other);
 }
 
@@ -239,7 +239,7 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     s.body = number_in_group_[c.body];
     s.normal = contact.normal;
     s.lever = contact.point - vector_of(mobility(std::int32_t(self), c.body).centre);
-    if (c.other_robot != no_robot) {
+    if (c.other_robot != not_dynamic) {
       s.other = number_in_group_[c.other_body];
       s.lever += c.lever_shift;
       s.other_lever = contact.point - vector_of(mobility(c.other_robot, c.other_body).centre) + c.other_lever_shift;
@@ -249,7 +249,7 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     }
     const Vec3 turn = Vec3::Map(point.turn), of_spin = point.spin * turn;
     s.cell = turn.cross(contact.normal);
-    if (c.other_robot == no_robot) {
+    if (c.other_robot == not_dynamic) {
       const Vec3 of_cell = bodies_.velocity(contact.other, contact.point + s.cell) - s.touched;
       s.touched += of_cell - contact.normal * contact.normal.dot(of_cell);
     }
@@ -258,7 +258,7 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     const bool holds_own = has_joints(self), holds_other = has_joints(c.other_robot),
                is_pressed = holds_own || holds_other;
     // what moves by itself presses as hard as its contact is stiff: a harder one would be pressed harder
-    const bool learns = is_pressed && (c.other_robot != no_robot || !bodies_.moves(contact.other));
+    const bool learns = is_pressed && (c.other_robot != not_dynamic || !bodies_.moves(contact.other));
     const double pressed = learns ? std::min(c.solved.mean_load / standard_gravity, most_weights * mass) : 0;
     const double carried = std::max(part * mass, pressed);
     const double stiffness = carried * omega * omega, held = 2 * carried * omega + context_.stiffness.h * stiffness;
@@ -268,7 +268,7 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     s.push = std::min(s.push, s.along * context_.correcting_speed);
     if (is_pressed) solver.hold(holds_own, holds_other);
     const Vec3 tangential = displacement - contact.normal * contact.normal.dot(displacement);
-    if (is_own_decoupled && c.other_robot == no_robot) {
+    if (is_own_decoupled && c.other_robot == not_dynamic) {
       const double mass_across = apparent_mass_across(self, c);
       s.across = mass_across * friction.held;
       s.spring = mass_across * friction.spring * tangential;
@@ -299,7 +299,7 @@ void PairContacts::add_supports(std::uint32_t self, double mass, ContactSolver& 
   const double held = 2 * mass * context_.omega + context_.stiffness.h * stiffness;
   for (const Contact& contact : *robot.contacts) {
     const Body& own = bodies_[contact.self];
-    if (bodies_.dynamic_robot_of(bodies_[contact.other]) != no_robot || own.robot != std::int32_t(self)) continue;
+    if (bodies_.dynamic_robot_of(bodies_[contact.other]) != not_dynamic || own.robot != std::int32_t(self)) continue;
     const Vec3 touched = bodies_.velocity(contact.other, contact.point);
     if ((bodies_.velocity(contact.self, contact.point) - touched).dot(contact.normal) > leaves) continue;
     SolverContact& s = solver.add_contact();
@@ -321,7 +321,7 @@ void PairContacts::add_supports(std::uint32_t self, double mass, ContactSolver& 
 void PairContacts::tell_depth(std::uint32_t self, const Contact& contact, const PairPoint& point, const Computed& c) {
   constexpr double too_deep = 2e-3, at_rest = 1e-3;  // m, m/s
   if (contact.depth - point.overlap < too_deep || std::abs(point.approach) > at_rest || !c.lasts) return;
-  if (c.other_robot == no_robot) return;
+  if (c.other_robot == not_dynamic) return;
   if (is_known(bodies_.robots[self]) && is_known(bodies_.robots[std::size_t(c.other_robot)])) return;
   if (depth_is_told_.exchange(true)) return;
   const auto name = [&](ObjectId id) { return quote(bodies_.names[index_of(id)]); };

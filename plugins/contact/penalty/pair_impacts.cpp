@@ -12,7 +12,7 @@ namespace muro::penalty {
 bool PairContacts::add_impact(std::uint32_t self, const Contact& contact, std::int32_t other_robot, std::size_t place) {
   const Robot& robot = bodies_.robots[self];
   const double step = bodies_.impact_step_of(std::int32_t(self));
-  const bool falls = other_robot != no_robot;
+  const bool falls = other_robot != not_dynamic;
   if (step == 0 || (falls && bodies_.impact_step_of(other_robot) != step)) return false;
   const Vec3 velocity = bodies_.velocity(contact.self, contact.point) - bodies_.velocity(contact.other, contact.point);
   if (!(-velocity.dot(contact.normal) > context_.impact_speed)) return false;  // most, before anything is looked up
@@ -60,7 +60,7 @@ void PairContacts::resolve_in_turns() {
     me.pushed = {};
     for (std::uint32_t number = 0; number < me.impact_patches.size(); ++number) {
       const std::int32_t other = me.impact_patches[number].other;
-      if (me.group == no_group && me.impacts < 2 && (other == no_robot || record(std::uint32_t(other)).impacts < 2))
+      if (me.group == no_group && me.impacts < 2 && (other == not_dynamic || record(std::uint32_t(other)).impacts < 2))
         continue;
       double since = 0;
       for (const ImpactContact& c : me.impact_contacts)
@@ -78,7 +78,7 @@ void PairContacts::resolve_in_turn(std::uint32_t self, std::uint32_t number) {
   Record& me = record(self);
   ImpactPatch& patch = me.impact_patches[number];
   patch.is_resolved = true;
-  Record* const other_record = patch.other == no_robot ? nullptr : &record(std::uint32_t(patch.other));
+  Record* const other_record = patch.other == not_dynamic ? nullptr : &record(std::uint32_t(patch.other));
   me.points.clear();
   for (const ImpactContact& c : me.impact_contacts)
     if (c.patch == number) me.points.push_back(c.point);
@@ -118,7 +118,7 @@ void PairContacts::apply_impacts(std::uint32_t self) {
       if (c.patch == number) me.points.push_back(c.point);
     const double since = mean_since(me.points);
     const ImpactBody own{body.mobility_before(since)};
-    if (patch.other == no_robot) {
+    if (patch.other == not_dynamic) {
       if (!patch.is_resolved) resolve_impact(me.points, own, nullptr);
     } else {
       const FreeBody of_other = free_body(std::uint32_t(patch.other));

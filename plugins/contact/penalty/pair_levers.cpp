@@ -11,7 +11,7 @@ namespace muro::penalty {
 void PairContacts::find_lever_shifts(std::uint32_t self, const ContactPatch& patch, const Vec3& at,
                                      const FrictionAnchor* before, const AnchorDetail& detail, Computed& c) const {
   const bool lasts = before && context_.elapsed > 0;
-  if (patch.other != no_robot)
+  if (patch.other != not_dynamic)
     find_shared_lever_shifts(self, patch, at, lasts ? before : nullptr, c);
   else
     find_own_lever_shift(self, patch, at, lasts ? before : nullptr, detail, c);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "muro/plugin.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "muro/vocabulary/contact.hpp"
 #include "pair_contacts.hpp"
 #include "scenery_contacts.hpp"
@@ -105,7 +105,7 @@ class Penalty final : public Algorithm {
   void process_pairs(int pass, Range block) {
     for (std::uint32_t number = block.begin; number < block.end; ++number) {
       const std::int32_t robot = bodies_.robot_of[number];
-      if (robot != no_robot && scenery_contacts_->remaining()[std::size_t(robot)])
+      if (robot != not_dynamic && scenery_contacts_->remaining()[std::size_t(robot)])
         pair_contacts_->pass(pass, std::uint32_t(robot));
     }
   }

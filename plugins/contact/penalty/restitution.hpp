@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace muro::penalty {
 

@@ -97,7 +97,7 @@ void SceneryContacts::apply_forces(const StepContext& context, Range block) {
   Queues queues;
   const auto robot_of = [&](std::uint32_t number) { return bodies_.robot_of[number]; };
   for (std::uint32_t number = block.begin; number < block.end; ++number) {
-    if (robot_of(number) != no_robot) apply_forces_on(context, std::uint32_t(robot_of(number)), queues);
+    if (robot_of(number) != not_dynamic) apply_forces_on(context, std::uint32_t(robot_of(number)), queues);
   }
   process_rest(context, queues);
 }

@@ -5,7 +5,7 @@
 #include <fenv.h>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/whole_library.hpp"
+#include "muro/base/whole_library.hpp"
 #include "plugins/common/text/one_line.hpp"
 #include "plugins/controller/common/own_symbols/own_symbols.hpp"
 

@@ -8,8 +8,8 @@
 #include <type_traits>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
-#include "muro/toolkit/input_file.hpp"
+#include "muro/base/did_you_mean.hpp"
+#include "muro/base/input_file.hpp"
 #include "number.hpp"
 #include "plugins/common/model_file/message.hpp"
 #include "plugins/common/model_file/numbers.hpp"

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "component.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "plugins/common/child_process/as_child.hpp"
 #include "plugins/common/child_process/own_folder.hpp"
 #include "remote_protocol.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/did_you_mean.hpp"
+#include "muro/base/limits.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/text/glob.hpp"
 #include "plugins/common/text/quote.hpp"

@@ -48,10 +48,6 @@ constexpr auto time_in_a_step = std::chrono::milliseconds(5);
 
 class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
  public:
-  ~JsonRpc() override {
-    if (run_) run_->remove_attendant(*this);
-  }
-
   void connect(Connector& c) override {
     const Item item = c.items().empty() ? Item{} : c.items()[0];
     if (c.items().size() > 1)
@@ -69,7 +65,6 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
     const std::string owner = item.robot ? std::string(item.robot->name) : "world";
     const std::string place = address.path.empty() ? std::to_string(address.port) : address.path;
     stream_.emplace(c, owner + "/jsonrpc:" + place, address, request_framing, limits);  // there may be several
-    run_->add_attendant(*this);
   }
 
   void connect_by_name(Connector& c) override {
@@ -91,6 +86,9 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
     service_->time_was_set(run_->time());
   }
   void restored() override { service_->time_was_set(run_->time()); }
+  void* find_extension(const ExtensionId& id) override {
+    return id == PauseAttendant::id() ? static_cast<PauseAttendant*>(this) : nullptr;
+  }
 
   std::span<const Phase> phases() const override {
     static constexpr Phase whole[] = {{Phase::IndexSpace::whole}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rpc_error.hpp"
 
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 
 namespace muro::jsonrpc {
 

@@ -97,8 +97,6 @@ class FakeRun final : public RunControl {
   void step_for(std::int64_t ns) noexcept override { paused = true, pause_at = now + ns; }
   double speed() const noexcept override { return factor; }
   void set_speed(double f) noexcept override { factor = f; }
-  void add_attendant(PauseAttendant&) noexcept override {}
-  void remove_attendant(PauseAttendant&) noexcept override {}
   void place(const Placement& p, std::uint64_t ticket, RequestDone* done) noexcept override {
     add("place " + std::string(scene.object_name(p.object)) + (p.is_forced ? " by force" : ""), ticket, done,
         [this, p] { scene.pose = p.pose; });

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "method.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 #include "plugins/common/text/glob.hpp"
 #include "plugins/common/text/quote.hpp"
 
@@ -17,7 +17,7 @@ template <class Visit>
 void each_property(const Connector& c, Visit visit) {
   for (std::uint32_t o = 0; o < c.object_count(); ++o) {
     const std::string object = std::string(c.object_name(ObjectId{o})) + ":";
-    const std::span<const FoundProperty> found = c.properties(ObjectId{o});
+    const Rows<FoundProperty> found = c.properties(ObjectId{o});
     const std::vector<FoundProperty> all(found.begin(), found.end());
     for (const FoundProperty& p : all) visit(p, object + std::string(p.key->name));
   }

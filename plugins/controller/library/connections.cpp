@@ -6,7 +6,7 @@
 
 #include "control_table.hpp"
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "port.hpp"
@@ -116,9 +116,9 @@ std::vector<FoundProperty> PropertyFinder::find_matching(const PropertyReference
 }
 
 std::optional<PropertyFinder::Following> PropertyFinder::following(ObjectId joint) const {
-  const std::int32_t number = joint == no_object ? -1 : connector_.robot_of(joint);
-  if (number < 0) return std::nullopt;
-  const RobotView& robot = *connector_.robots()[std::size_t(number)];
+  const RobotId id = joint == no_object ? no_robot : connector_.robot_of(joint);
+  if (id == no_robot) return std::nullopt;
+  const RobotView& robot = *connector_.robots()[index_of(id)];
   for (const Link& link : robot.links)
     if (link.joint_object == joint && link.mimic >= 0)
       return Following{&robot, &link, &robot.links[std::size_t(link.mimic)]};

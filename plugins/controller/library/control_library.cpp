@@ -10,7 +10,7 @@
 
 #include "control_table.hpp"
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/whole_library.hpp"
+#include "muro/base/whole_library.hpp"
 #include "plugins/common/child_process/own_folder.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/controller/common/own_symbols/own_symbols.hpp"

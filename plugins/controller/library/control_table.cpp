@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::control {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "local_instance.hpp"
-#include "muro/toolkit/number_text.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/number_text.hpp"
+#include "muro/base/random.hpp"
 #include "muro/vocabulary/radio.hpp"
 #include "outcome_text.hpp"
 #include "plugins/common/text/counted.hpp"
@@ -291,7 +291,7 @@ bool ControlledRobot::call(Call& call, const Step& step) {
 void ControlledRobot::report(ReportEntries& report) const {
   if (failure_count_ == 0) return;
   const std::string name = name_ + "/" + settings_.table.name;
-  const auto tell = [&](std::string_view key, std::uint64_t value) { report.set({"control_code", name, key, value}); };
+  const auto tell = [&](std::string_view key, std::uint64_t value) { report.set({"control_code", name, key, double(value)}); };
   tell("failures", failure_count_);
   tell("restarts", block_->restarts);
   tell("held", block_->is_held);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "outcome_text.hpp"
 
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "plugins/common/text/one_line.hpp"
 #include "plugins/common/text/quote.hpp"
 

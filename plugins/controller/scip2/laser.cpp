@@ -43,7 +43,7 @@ ObjectId Laser::find(const Connector& c, const Item& item) {
   ObjectId found = no_object;
   int count = 0;
   for (std::uint32_t o = 0; o < c.object_count() && item.robot; ++o) {
-    if (c.robot_of(ObjectId{o}) != std::int32_t(item.robot->number) || !is_laser(c, ObjectId{o})) continue;
+    if (c.robot_of(ObjectId{o}) != item.robot->id || !is_laser(c, ObjectId{o})) continue;
     found = ObjectId{o};
     names += (count++ ? ", " : "") + quote(c.object_name(found));
   }

@@ -2,7 +2,7 @@
 #include "reading_finder.hpp"
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 #include "plugins/common/text/glob.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "reading.hpp"

@@ -16,7 +16,7 @@ struct KinematicTree {
   bool operator==(const KinematicTree&) const = default;
 };
 
-inline KinematicTree kinematic_tree(std::span<const muro::Link> links) {
+inline KinematicTree kinematic_tree(const muro::Rows<muro::Link>& links) {
   KinematicTree tree;
   std::vector<std::uint32_t> moved_by(links.size(), 0);  // the nearest link upwards that a joint moves, or the base
   std::vector<Pose> in_moved(links.size());              // pose in that link's frame, the link's own joint at 0

@@ -227,7 +227,7 @@ struct Crowd : Yard {
     use_laser(std::move(parameters));
     build();
     for (const RobotView* r : world().robots())
-      world().value(r->base(), keys::command_twist) = {{0.3 + 0.01 * r->number, 0, 0}, {0, 0, 0.5}};
+      world().value(r->base(), keys::command_twist) = {{0.3 + 0.01 * index_of(r->id), 0, 0}, {0, 0, 0.5}};
   }
 };
 

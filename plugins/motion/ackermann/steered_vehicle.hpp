@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "muro/handles.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/wheels/gauss_collocation.hpp"
 #include "plugins/common/wheels/steering_geometry.hpp"

@@ -6,7 +6,7 @@
 
 #include "muro/simd/numbers.hpp"
 #include "muro/toolkit/mass_properties.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 #include "muro/vocabulary/contact.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/contact_geometry/impact_path.hpp"

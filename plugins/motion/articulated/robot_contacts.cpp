@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "muro/simd/numbers.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 #include "plugins/common/contact_geometry/contact_patches.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/contact_geometry/kept_contact.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 #include "plugins/common/contact_geometry/kept_contact.hpp"
 
 namespace muro::articulated {

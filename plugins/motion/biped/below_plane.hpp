@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ground_plane.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 #include "muro/toolkit/link_pose.hpp"
 #include "plugins/common/text/quote.hpp"
 

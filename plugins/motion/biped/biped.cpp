@@ -163,7 +163,7 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
     r.base_pose = c.variable(view.base(), own::stance_base_pose, base);
     for (std::uint32_t i = 0; i < 2; ++i) {
       const bool touches = i == stance.foot || swing_height(feet, stance, at) <= contact_height_;
-      r.contact[i] = c.variable(view.links[found.links[i]].object, own::foot_contact, std::uint32_t(touches));
+      r.contact[i] = c.variable(view.links[found.links[i]].object, keys::foot_contact, std::uint32_t(touches));
     }
     return r;
   }

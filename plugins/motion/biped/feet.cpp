@@ -5,7 +5,7 @@
 #include <string>
 
 #include "muro/shape.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/mesh/hull_vertices.hpp"
 #include "plugins/common/text/quote.hpp"

@@ -114,13 +114,13 @@ TEST_P(HandOverOfABiped, ToAnotherMotionAndBackKeepsItOnItsFeet) {
   const Pose before = s.pose(s.robot);
   s.go(1, 0.002);
   EXPECT_LT((s.pose(s.robot).position - before.position).norm(), 1e-3);
-  EXPECT_EQ(s.world().value("r/left_foot", own::foot_contact), 0u) << "the other motion does not tell it";
+  EXPECT_EQ(s.world().value("r/left_foot", keys::foot_contact), 0u) << "the other motion does not tell it";
   s.pose(s.robot) = {{0.5, 0.3, 0.4}, from_rpy(0.4, 1.2, 0.1)};  // it has fallen
   s.go(1, 0.002);
   s.go(0, 0.002);
   EXPECT_NEAR(s.pose(s.robot).position.z(), leg_length, 1e-6) << "engines let joints give a little";
   EXPECT_NEAR((s.pose(s.robot).orientation * Vec3::UnitZ()).z(), 1, 1e-12) << "put on its feet";
-  EXPECT_EQ(s.world().value("r/left_foot", own::foot_contact), 1u);
+  EXPECT_EQ(s.world().value("r/left_foot", keys::foot_contact), 1u);
 }
 
 TEST_P(HandOverOfABiped, GoesOnFromASnapshotToTheSameBits) {

@@ -15,8 +15,5 @@ inline constexpr Key<std::uint32_t> stance_is_flush{
 inline constexpr Key<std::uint64_t> stance_footholds{"stance.footholds", "1", "how often a foot has been put down"};
 /// Any other pose of the base means that something else has moved the robot.
 inline constexpr Key<Pose> stance_base_pose{"stance.base_pose", "m", "pose of the base as the motion has left it"};
-/// Of the link of a foot; the property that sensor.foot tells.
-inline constexpr Key<std::uint32_t> foot_contact{"foot.contact", "1", "1: the foot stands on something",
-                                                 Role::motion_trait};
 
 }  // namespace muro::biped::own

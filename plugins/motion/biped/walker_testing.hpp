@@ -80,7 +80,7 @@ struct Walk : test::Scene {
     return world().value(robot.base(), key);
   }
   std::uint64_t footholds() { return stance(own::stance_footholds); }
-  std::uint32_t contact(const std::string& foot) { return world().value("r/" + foot, own::foot_contact); }
+  std::uint32_t contact(const std::string& foot) { return world().value("r/" + foot, keys::foot_contact); }
 };
 
 /// The legs of the compass walker: the trunk goes upright over the stance leg, whose angle from the normal of the plane

@@ -6,7 +6,7 @@
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 
 namespace muro::bullet {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "plugins/common/parser_process/ask.hpp"
 #include "plugins/common/parser_process/builder_calls/model_constants.hpp"
 #include "plugins/common/text/quote.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::mujoco {

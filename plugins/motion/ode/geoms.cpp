@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "geoms.hpp"
 
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 
 namespace muro::ode {
 

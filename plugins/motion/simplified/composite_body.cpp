@@ -17,7 +17,7 @@ bool balanced(const Inertia& body, const Vec3& axis) {
 namespace {
 
 /// For every link: whether its joint moves mass relative to the link's parent.
-std::vector<bool> find_moving_joints(std::span<const Link> links, std::span<const Inertia> inertias,
+std::vector<bool> find_moving_joints(Rows<Link> links, std::span<const Inertia> inertias,
                                      std::span<const double> start) {
   std::vector<Inertia> subtree(inertias.begin(), inertias.end());
   std::vector<bool> moves(links.size()), moves_below(links.size());
@@ -35,7 +35,7 @@ std::vector<bool> find_moving_joints(std::span<const Link> links, std::span<cons
 
 }  // namespace
 
-CompositeBody::CompositeBody(std::span<const Link> links, std::span<const Inertia> inertias,
+CompositeBody::CompositeBody(Rows<Link> links, std::span<const Inertia> inertias,
                              std::span<const double> start) {
   const std::vector<bool> moves = find_moving_joints(links, inertias, start);
   std::vector<std::uint32_t> group_of(links.size());

@@ -28,7 +28,7 @@ class CompositeBody {
  public:
   /// `inertias`, `start`: one per link, the joint positions (rad or m) at the start. Positions of joints that open no
   /// group do not matter later.
-  CompositeBody(std::span<const Link> links, std::span<const Inertia> inertias, std::span<const double> start);
+  CompositeBody(Rows<Link> links, std::span<const Inertia> inertias, std::span<const double> start);
 
   double mass() const { return mass_; }
   /// Whether no joint moves centre or inertia.

@@ -7,7 +7,7 @@
 
 namespace muro::simplified {
 
-DecoupledDynamics::DecoupledDynamics(std::span<const Link> links, std::span<const Inertia> inertias,
+DecoupledDynamics::DecoupledDynamics(Rows<Link> links, std::span<const Inertia> inertias,
                                      std::span<const std::uint32_t> dofs, bool fixed_base, double armature)
     : fixed_base_(fixed_base), body_of_link_(links.size()), pose_in_body_(links.size()) {
   std::vector<MovedInertias::Body> tree = join(links, inertias);
@@ -40,7 +40,7 @@ DecoupledDynamics::DecoupledDynamics(std::span<const Link> links, std::span<cons
 }
 
 /// Links into bodies.
-std::vector<MovedInertias::Body> DecoupledDynamics::join(std::span<const Link> links,
+std::vector<MovedInertias::Body> DecoupledDynamics::join(Rows<Link> links,
                                                          std::span<const Inertia> inertias) {
   std::vector<MovedInertias::Body> tree(1);
   bodies_.emplace_back();

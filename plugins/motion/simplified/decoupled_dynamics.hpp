@@ -30,7 +30,7 @@ class DecoupledDynamics {
   };
   /// `inertias`: one per link. `dofs`: links whose joints they are, none of them a mimic. `armature`: kg m^2 or kg,
   /// that driven() counts beside that of their limits.
-  DecoupledDynamics(std::span<const Link> links, std::span<const Inertia> inertias, std::span<const std::uint32_t> dofs,
+  DecoupledDynamics(Rows<Link> links, std::span<const Inertia> inertias, std::span<const std::uint32_t> dofs,
                     bool fixed_base, double armature = 0);
 
   void add_wrench(std::uint32_t link, SumIn<Wrench> wrench);
@@ -69,7 +69,7 @@ class DecoupledDynamics {
     SumIn<Wrench> wrench;
   };
 
-  std::vector<MovedInertias::Body> join(std::span<const Link> links, std::span<const Inertia> inertias);
+  std::vector<MovedInertias::Body> join(Rows<Link> links, std::span<const Inertia> inertias);
   void find_constant_inertias(std::span<const MovedInertias::Body> tree);
   void find_places(std::span<const double> positions);
   void add_inertial_forces(const Vector& force, const Vector& torque, const Vector& spin, const Vector& gravity);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "force_driven_joints.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 
 #include <algorithm>
 #include <string>

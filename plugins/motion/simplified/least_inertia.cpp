@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/motion/common/multibody/missing_inertia.hpp"

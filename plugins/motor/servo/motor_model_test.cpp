@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// muro/toolkit/motor_model.hpp against closed forms, and against speeds measured at an MX-64.
-#include "muro/toolkit/motor_model.hpp"
+// muro/base/motor_model.hpp against closed forms, and against speeds measured at an MX-64.
+#include "muro/base/motor_model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/motor_model.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/motor_model.hpp"
+#include "muro/base/number_text.hpp"
 #include "plugins/common/part_file/part_file.hpp"
 #include "plugins/common/text/quote.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "motor_parameters.hpp"
 #include "muro/toolkit/joint_drives.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 
 namespace muro::servo {
 

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "muro/toolkit/motor_model.hpp"
+#include "muro/base/motor_model.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro {

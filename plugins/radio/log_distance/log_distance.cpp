@@ -8,7 +8,7 @@
 #include "delivery.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mounting.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "parameters.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -96,7 +96,7 @@ Radio LogDistance::bind(Connector& c, std::uint32_t i) {
   Radio r;
   r.parameters = radio_parameters(c.parameters_of(i));
   r.mounting = mounting_of(c.parameters_of(i));
-  r.robot = std::int32_t(item.robot->number);
+  r.robot = item.robot->id;
   r.key = item.robot->key;
   c.set(o, keys::sensor_origin, r.mounting);
   c.set(o, keys::radio_keep, std::max(1.0, std::ceil(r.parameters.keep * c.rate() * (1 - 1e-9))) / c.rate());
@@ -125,9 +125,10 @@ void LogDistance::connect(Connector& c) {
     channel_.sight = &*sight_;
   }
   notes_ = CallNotes::of(c.host());
-  const Range all{0, std::uint32_t(c.items().size())};
-  for (const Item& item : NotedSpan(c.items().data(), all, note())) {
+  CallNote* const noted = note();
+  for (const Item& item : c.items()) {
     const auto i = std::uint32_t(radios_.size());
+    if (noted) noted->set_item(i);
     if (!item.robot) throw Error("radios are parts of robots; name it in a robot, not under `algorithms`");
     check_same_channel(c.parameters_of(i), c.parameters(), c.items()[0].robot->name);
     radios_.push_back(bind(c, i));

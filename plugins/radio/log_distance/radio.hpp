@@ -10,7 +10,7 @@
 #include "frame.hpp"
 #include "muro/handles.hpp"
 #include "muro/step.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 #include "plugins/common/line_of_sight/line_of_sight.hpp"
 
 namespace muro::log_distance {
@@ -51,7 +51,7 @@ struct Radio {
   Out<radio::Counters> counters;
   RadioParameters parameters;
   Pose mounting;
-  std::int32_t robot = -1;
+  RobotId robot = no_robot;
   std::uint64_t key = 0;  ///< of the name of the robot
 };
 

@@ -81,7 +81,7 @@ void Reception::take_up(const Surroundings& s, std::uint32_t number) {
 void Reception::listen() {
   s_->hash.each_within(s_->places[number_], s_->hearing, [&](std::uint32_t i, double squared) {
     const CompleteFrame& c = s_->complete[i];
-    const bool is_for_us = c.receiver == radio::broadcast || c.receiver == r_->robot;
+    const bool is_for_us = c.receiver == radio::broadcast || c.receiver == std::int64_t(index_of(r_->robot));
     if (c.radio != number_ && is_for_us) heard_.push_back({&c, squared});
   });
   if (s_->channel.is_shared && !heard_.empty()) find_nearby();
@@ -210,7 +210,7 @@ Incoming Reception::incoming_of(const Heard& h, double rssi) const {
   const Frame& f = *h.complete->frame;
   const double distance = std::sqrt(h.squared_distance);
   return {f.end + distance / s_->channel.speed, f.handed_over, rssi,      f.number,
-          s_->radios[h.complete->radio].robot,  f.size,        &f.payload};
+          std::int32_t(index_of(s_->radios[h.complete->radio].robot)),  f.size,        &f.payload};
 }
 
 void Reception::count(Outcome outcome) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads the file of a heightmap as a model of one body that does not move.
-#include "muro/heightmap.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "muro/plugin.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/heightmap/heightmap_file.hpp"

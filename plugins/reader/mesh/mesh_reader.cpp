@@ -2,9 +2,9 @@
 // Reads a mesh file as a model of one body.
 #include <algorithm>
 
-#include "muro/mesh_corners.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "muro/plugin.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/mesh/hull.hpp"
 #include "plugins/common/mesh/solid.hpp"

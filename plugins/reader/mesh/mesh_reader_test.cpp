@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "core/read_model.hpp"
-#include "muro/mesh_corners.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/mesh/files_testing.hpp"
 #include "plugins/common/mesh/hull.hpp"

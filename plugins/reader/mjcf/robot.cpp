@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "muro/ext/visual_materials.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "muro/toolkit/pair_surface.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/model_file/build_tree.hpp"

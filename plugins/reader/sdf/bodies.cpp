@@ -5,7 +5,7 @@
 #include <sdf/sdf.hh>
 
 #include "assembly.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/model_file/inertia.hpp"
 

@@ -4,7 +4,7 @@
 #include "bodies.hpp"
 #include "devices.hpp"
 #include "joints.hpp"
-#include "muro/ext/visual_materials.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/model_file/build_tree.hpp"
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "checks.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/model_file/numbers.hpp"
 #include "plugins/common/model_file/ranges.hpp"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "checks.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "plugins/common/model_file/mesh_path.hpp"
 #include "plugins/common/model_file/numbers.hpp"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "checks.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 
 namespace muro::sdf {
 

@@ -5,7 +5,7 @@
 #include <sdf/Geometry.hh>
 #include <sdf/Sphere.hh>
 
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 #include "plugins/common/model_file/joint_spring.hpp"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "muro/ext/visual_materials.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/model_file/inertia.hpp"
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "model.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "plugins/common/model_file/mimic_limits.hpp"
 
 namespace muro::urdf {

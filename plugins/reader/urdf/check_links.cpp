@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "model.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/model_file/numbers.hpp"
 

@@ -2,7 +2,7 @@
 #include <array>
 
 #include "model.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 #include "plugins/common/model_file/numbers.hpp"
 
 namespace muro::urdf {

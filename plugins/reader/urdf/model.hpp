@@ -11,7 +11,7 @@
 
 #include "document.hpp"
 #include "muro/geometry.hpp"
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 #include "plugins/common/model_file/joint_spring.hpp"
 #include "plugins/common/model_file/mesh_path.hpp"
 #include "plugins/reader/common/sdf_devices/subsystem.hpp"

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "document.hpp"
-#include "muro/ext/model_subsystems.hpp"
-#include "muro/ext/visual_materials.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "muro/vocabulary.hpp"
 #include "read.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/text/glob.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -63,7 +63,7 @@ class ContactRecorder final : public Algorithm {
       for (const Key<ContactWrench>* key : {&keys::contact_wrenches_of_motion, &keys::contact_wrenches_of_law})
         if (has(robot, *key))
           lists_.push_back(
-              {c.read_list(robot->base(), *key), c.read(robot->base(), keys::contact_world), robot->number});
+              {c.read_list(robot->base(), *key), c.read(robot->base(), keys::contact_world), robot->id});
     }
     if (lists_.empty())
       throw Error(
@@ -99,7 +99,7 @@ class ContactRecorder final : public Algorithm {
   struct RobotList {
     ListIn<ContactWrench> contacts;
     In<std::uint64_t> world;  ///< see keys::contact_world
-    std::uint32_t robot = 0;
+    RobotId robot = no_robot;
   };
 
   void choose_bodies(const Connector& c) {
@@ -124,14 +124,14 @@ class ContactRecorder final : public Algorithm {
 
   /// Whether the list of a robot before has it, as the other body feels it.
   bool stands_before(const RobotList& own, const ContactWrench& contact) const {
-    const std::int32_t other = contact.other == no_object ? -1 : robot_of_[index_of(contact.other)];
-    if (other < 0 || std::uint32_t(other) >= own.robot) return false;
+    const RobotId other = contact.other == no_object ? no_robot : robot_of_[index_of(contact.other)];
+    if (other >= own.robot) return false;  // no_robot is the last
     const auto is_same = [&](const ContactWrench& c) {
       return c.body == contact.other && c.other == contact.body && c.point == contact.point;
     };
-    const auto precedes = [](const RobotList& list, std::uint32_t robot) { return list.robot < robot; };
-    for (auto at = std::lower_bound(lists_.begin(), lists_.end(), std::uint32_t(other), precedes);
-         at != lists_.end() && at->robot == std::uint32_t(other); ++at)
+    const auto precedes = [](const RobotList& list, RobotId robot) { return list.robot < robot; };
+    for (auto at = std::lower_bound(lists_.begin(), lists_.end(), other, precedes);
+         at != lists_.end() && at->robot == other; ++at)
       if (is_moved_by_forces(*at->world) && std::any_of((*at->contacts).begin(), (*at->contacts).end(), is_same))
         return true;
     return false;
@@ -157,7 +157,7 @@ class ContactRecorder final : public Algorithm {
   std::string path_;
   std::vector<std::string> names_;      ///< of all objects
   std::vector<bool> wanted_;            ///< likewise
-  std::vector<std::int32_t> robot_of_;  ///< likewise: number, -1 for scenery
+  std::vector<RobotId> robot_of_;  ///< by object
   std::vector<RobotList> lists_;        ///< in the order of robots
   std::optional<CsvFile> file_;
   std::int64_t last_time_ = -1;  ///< ns, of the last run

@@ -7,7 +7,7 @@
 
 #include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
-#include "muro/toolkit/whole_file.hpp"
+#include "muro/base/whole_file.hpp"
 #include "plugins/common/image_file/png.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/input_file.hpp"
+#include "muro/base/input_file.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::inputs {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Puts what properties are at the end of a run into its report; see README.md.
-#include "muro/ext/report_numbers.hpp"
+#include "muro/ext/report_entries.hpp"
 #include "muro/plugin.hpp"
 #include "plugins/common/text/with_scalar.hpp"
 #include "plugins/recorder/common/recorded_property/recorded_property.hpp"
@@ -25,7 +25,7 @@ constexpr Description description{
 
 class ReportRecorder final : public Algorithm {
  public:
-  void connect(Connector& c) override { report_ = ReportNumbers::of(c.host()); }
+  void connect(Connector& c) override { report_ = ReportEntries::of(c.host()); }
   void connect_by_name(Connector& c) override { properties_ = select(c, c.parameters().texts("properties")); }
   void step(const Step&, Range) override {}
 
@@ -37,7 +37,7 @@ class ReportRecorder final : public Algorithm {
       with_scalar(p.scalar(), [&]<class T>(T) {
         p.each([&](const void* number) {
           const std::string& element = elements[i++];
-          report_->set_number(
+          report_->set(
               {"properties", p.name(), element.empty() ? "value" : element, double(*static_cast<const T*>(number))});
         });
       });
@@ -45,7 +45,7 @@ class ReportRecorder final : public Algorithm {
   }
 
  private:
-  ReportNumbers* report_ = nullptr;
+  ReportEntries* report_ = nullptr;
   std::vector<RecordedProperty> properties_;
 };
 

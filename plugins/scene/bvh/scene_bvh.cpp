@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/mesh/collision_mesh.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -63,7 +63,7 @@ std::optional<Shape> SceneBvh::bounding_shape(Connector& c, ObjectId body, const
 }
 
 void SceneBvh::add_colliders(Connector& c, ObjectId body, const Pose* pose) {
-  const std::span<const Shape> shapes = c.constant_array(body, keys::collision_shapes);
+  const Rows<Shape> shapes = c.constant_array(body, keys::collision_shapes);
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
     const std::optional<Shape> bounding = bounding_shape(c, body, shapes[i]);
     if (!bounding) continue;
@@ -82,7 +82,7 @@ void SceneBvh::add_colliders(Connector& c, ObjectId body, const Pose* pose) {
 void SceneBvh::add_scenery(Connector& c) {
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {
     const ObjectId o{i};
-    if (c.robot_of(o) >= 0 || c.constant_array(o, keys::collision_shapes).empty()) continue;
+    if (c.robot_of(o) != no_robot || c.constant_array(o, keys::collision_shapes).empty()) continue;
     add_colliders(c, o, &scenery_poses_.emplace_back(c.constant(o, keys::pose).value_or(Pose{})));
   }
   scenery_ = std::uint32_t(colliders_.size());
@@ -95,7 +95,7 @@ void SceneBvh::add_robot(Connector& c, const RobotView& robot) {
   for (const Link& link : robot.links) follows.push_back(c.is_used(link.object, keys::pose, usage::derived));
   for (std::uint32_t link = 0; link < robot.links.size(); ++link) {
     const ObjectId body = robot.links[link].object;
-    const std::span<const Shape> shapes = c.constant_array(body, keys::collision_shapes);
+    const Rows<Shape> shapes = c.constant_array(body, keys::collision_shapes);
     const std::size_t first_of_body = bounding_shapes_.size();
     if (!shapes.empty()) add_colliders(c, body, c.read(body, keys::pose).get());
     for (const Shape& s : std::span(bounding_shapes_).subspan(first_of_body))
@@ -114,12 +114,12 @@ void SceneBvh::add_robot(Connector& c, const RobotView& robot) {
     box.ball = b.ball;
   }
   if (!rounded.empty()) {
-    members_.push_back(robot.number);
+    members_.push_back(index_of(robot.id));
     if (c.constant(robot.base(), keys::shadow_of))
-      shadows_.insert(robot.number);
+      shadows_.insert(index_of(robot.id));
     else
-      in_tree_.push_back(robot.number);
-    add_to_group(groups_, std::move(rounded), robot.number);
+      in_tree_.push_back(index_of(robot.id));
+    add_to_group(groups_, std::move(rounded), index_of(robot.id));
   }
 }
 

@@ -2,7 +2,7 @@
 // scene.bvh in a simulation.
 #include <gtest/gtest.h>
 
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "tests/support/collision_scene.hpp"
 #include "tests/support/files.hpp"
@@ -43,7 +43,7 @@ TEST(SceneBvh, DescribesTheSceneOfTheInstant) {
     for (std::size_t r = 0; r < poses.size(); ++r) {
       ASSERT_EQ(index.robots[r].count, 1u);
       const Collider& c = index.colliders[index.robots[r].first];
-      EXPECT_EQ(c.robot, std::int32_t(r));
+      EXPECT_EQ(c.robot, RobotId(std::uint32_t(r)));
       EXPECT_EQ(c.body, crowd.all[r]->base());
       EXPECT_EQ(c.pose().position, poses[r].position);
       const Aabb tight = bounds_of(*c.shape, poses[r]), present = bounds_of(*c.shape, c.pose());
@@ -99,7 +99,7 @@ TEST(SceneBvh, KnowsBoundsOfMeshes) {
   ASSERT_EQ(index.scenery.nodes.size(), 1u);
   EXPECT_LT((index.scenery.nodes[0].bounds.low - Vec3(8, 0, 0)).norm(), 1e-6);
   EXPECT_LT((index.scenery.nodes[0].bounds.high - Vec3(10, 1, 4)).norm(), 1e-6);
-  const Aabb& bounds = index.robots[r.number].bounds;
+  const Aabb& bounds = index.robots[index_of(r.id)].bounds;
   EXPECT_LT((bounds.low - Vec3(-7, -0.05, 0.95)).norm(), 1e-6) << bounds.low.transpose();
   EXPECT_LT((bounds.high - Vec3(-4.95, 1, 5)).norm(), 1e-6) << bounds.high.transpose();
   EXPECT_EQ(index.moving.items.size(), 1u);

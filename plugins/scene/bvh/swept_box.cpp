@@ -81,7 +81,7 @@ TransformedShape revolved_about(const TransformedShape& s, const Vec3& axis) {
 
 }  // namespace
 
-LinkBox swept_box(std::span<const Link> links, const std::vector<bool>& follows, std::uint32_t link,
+LinkBox swept_box(Rows<Link> links, const std::vector<bool>& follows, std::uint32_t link,
                   const Shape& shape) {
   TransformedShape s = transformed(shape, shape.origin);
   const double max_diagonal = max_growth * diagonal_of(s);

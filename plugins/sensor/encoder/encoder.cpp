@@ -107,7 +107,7 @@ class Encoder final : public PerRobotAlgorithm<Range> {
   }
 
   static void tell_joint(Connector& c, const Item& item, const std::vector<std::uint32_t>& links) {
-    const std::span<const Link> all = item.robot->links;
+    const Rows<Link> all = item.robot->links;
     const auto shifts = [&](std::uint32_t i) { return all[i].joint == JointKind::prismatic; };
     const bool first = shifts(links.front());
     if (std::all_of(links.begin(), links.end(), [&](std::uint32_t i) { return shifts(i) == first; }))

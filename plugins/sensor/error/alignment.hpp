@@ -5,7 +5,7 @@
 #include <span>
 
 #include "muro/geometry.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 #include "per_component.hpp"
 
 namespace muro {

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro/toolkit/flicker_noise.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 #include "per_component.hpp"
 
 namespace muro {

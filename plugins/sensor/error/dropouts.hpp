@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 #include "per_component.hpp"
 
 namespace muro {

@@ -10,7 +10,7 @@
 #include "image_errors.hpp"
 #include "measured_place.hpp"
 #include "muro/plugin.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "neighbour_errors.hpp"
 #include "parameters.hpp"
 #include "plugins/common/text/counted.hpp"

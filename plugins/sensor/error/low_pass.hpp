@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "per_component.hpp"
 
 namespace muro {

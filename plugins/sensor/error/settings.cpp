@@ -4,7 +4,7 @@
 #include <initializer_list>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "plugins/common/text/counted.hpp"
 #include "plugins/common/text/quote.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <span>
 
-#include "muro/toolkit/elementary.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/elementary.hpp"
+#include "muro/base/random.hpp"
 #include "per_component.hpp"
 
 namespace muro {

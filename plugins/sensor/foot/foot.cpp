@@ -4,8 +4,8 @@
 #include <array>
 
 #include "muro/plugin.hpp"
-#include "muro/toolkit/bounds.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/bounds.hpp"
+#include "muro/base/number_text.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/sensor/common/internal_sensor/link_load.hpp"

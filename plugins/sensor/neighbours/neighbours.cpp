@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "muro/plugin.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro/toolkit/mounting.hpp"
 #include "plugins/common/line_of_sight/line_of_sight.hpp"
 #include "plugins/common/line_of_sight/spatial_hash.hpp"
@@ -65,12 +65,12 @@ class Neighbours final : public Algorithm {
   /// A robot that may be seen.
   struct Target {
     In<Pose> base;
-    std::int32_t robot;  ///< number
+    RobotId robot;
   };
   struct Device {
     In<Pose> pose;
     ListOut<Neighbour> seen;
-    std::int32_t robot = -1;
+    RobotId robot = no_robot;
   };
   void add_targets(Connector& c);
   void locate_targets();
@@ -97,7 +97,7 @@ void Neighbours::add_targets(Connector& c) {
     bool named = patterns.empty();
     for (std::size_t i = 0; i < patterns.size(); ++i)
       if (matches(patterns[i], robot->name)) named = used[i] = true;
-    if (named) targets_.push_back({c.read(robot->base(), keys::pose), std::int32_t(robot->number)});
+    if (named) targets_.push_back({c.read(robot->base(), keys::pose), robot->id});
   }
   for (std::size_t i = 0; i < patterns.size(); ++i)
     if (!used[i])
@@ -118,7 +118,7 @@ void Neighbours::connect(Connector& c) {
     Device d;
     d.pose = c.read(item.object, keys::pose);
     d.seen = c.variable_list(item.object, key_neighbours);
-    if (item.robot) d.robot = std::int32_t(item.robot->number);
+    if (item.robot) d.robot = item.robot->id;
     devices_.push_back(d);
   }
 }
@@ -144,7 +144,7 @@ Neighbour Neighbours::reading(const Pose& device, std::uint32_t target) const {
   const Vec3 to = back * Vec3(places_[target] - device.position);
   const Vec3 ahead = back * Vec3(targets_[target].base->orientation * Vec3::UnitX());
   const double level = std::sqrt(to.x() * to.x() + to.y() * to.y());
-  return {double(targets_[target].robot), to.norm(), azimuth_of(to), elementary::atan2(to.z(), level),
+  return {double(index_of(targets_[target].robot)), to.norm(), azimuth_of(to), elementary::atan2(to.z(), level),
           azimuth_of(ahead)};
 }
 

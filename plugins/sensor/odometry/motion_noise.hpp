@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 #include "plugins/common/wheels/planar_motion.hpp"
 
 namespace muro::odometry {

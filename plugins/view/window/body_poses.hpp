@@ -15,7 +15,7 @@ class BodyPoses {
   struct Body {
     In<Pose> pose;
     ObjectId object = no_object;
-    std::int32_t robot = -1;  ///< number
+    RobotId robot = no_robot;
     bool is_base = false;
   };
 
@@ -23,13 +23,13 @@ class BodyPoses {
   void connect_links(Connector& c) {
     for (const RobotView* robot : c.robots())
       for (const Link& link : robot->links)
-        add(c, link.object, std::int32_t(robot->number), link.object == robot->base());
+        add(c, link.object, robot->id, link.object == robot->base());
     link_count_ = bodies_.size();
   }
   /// After the links, when all sensors have connected. [setup]
   void connect_sensors(Connector& c) {
     for (std::uint32_t i = 0; i < c.object_count(); ++i)
-      if (const std::int32_t robot = c.robot_of(ObjectId(i)); robot >= 0)
+      if (const RobotId robot = c.robot_of(ObjectId(i)); robot != no_robot)
         for (const FoundProperty& found : c.properties(ObjectId(i)))
           if (found.key->name == keys::ranges.name || found.key->name == keys::camera_width.name)
             add(c, ObjectId(i), robot, false);
@@ -45,7 +45,7 @@ class BodyPoses {
   }
 
  private:
-  void add(Connector& c, ObjectId object, std::int32_t robot, bool is_base) {
+  void add(Connector& c, ObjectId object, RobotId robot, bool is_base) {
     bodies_.push_back({c.read(object, keys::pose), object, robot, is_base});
   }
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::view {
@@ -71,7 +71,7 @@ void Overlay::add_scan(Inspection& simulation, ObjectId sensor, render::DebugLin
 
 void Overlay::collect(Inspection& simulation, const BodyPoses& bodies, ObjectId selected,
                       render::DebugLines& lines) const {
-  std::int32_t robot = -1;
+  RobotId robot = no_robot;
   for (const BodyPoses::Body& b : bodies.links())
     if (b.object == selected) robot = b.robot;
   for (const BodyPoses::Body& b : bodies.links()) {

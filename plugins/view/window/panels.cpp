@@ -30,8 +30,8 @@ void Panels::connect(Connector& c) {
   for (const RobotView* robot : c.robots()) groups_.push_back({std::string(robot->name), {}});
   groups_.push_back({"scenery", {}});
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {
-    const std::int32_t robot = c.robot_of(ObjectId(i));
-    groups_[robot >= 0 ? std::size_t(robot) : groups_.size() - 1].objects.push_back(ObjectId(i));
+    const RobotId robot = c.robot_of(ObjectId(i));
+    groups_[robot != no_robot ? index_of(robot) : groups_.size() - 1].objects.push_back(ObjectId(i));
   }
 }
 

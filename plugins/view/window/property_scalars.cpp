@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 #include "plugins/common/text/with_scalar.hpp"
 
 namespace muro::view {

@@ -17,7 +17,7 @@ struct Scalars {
   /// "x", "[3]", "[3].x"; empty for a single number.
   std::string label(std::uint32_t i) const;
   double get(std::uint32_t i) const;
-  /// Leaves the property as it is, and returns false, when its value would be out of range (muro/toolkit/limits.hpp).
+  /// Leaves the property as it is, and returns false, when its value would be out of range (muro/base/limits.hpp).
   /// An orientation stays of length 1.
   bool set(std::uint32_t i, double value) const;
 

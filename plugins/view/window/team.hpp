@@ -16,7 +16,7 @@ class Team {
   void connect(const Connector& c, const BodyPoses& bodies) {
     robots_.resize(c.robots().size());
     for (const RobotView* robot : c.robots()) {
-      Robot& r = robots_[robot->number];
+      Robot& r = robots_[index_of(robot->id)];
       r.is_shadow = c.constant(robot->base(), keys::shadow_of).has_value();
       r.start = c.constant(robot->base(), keys::initial_pose).value_or(Pose{}).position;
     }

@@ -14,7 +14,7 @@
 #include "muro/ext/outputs.hpp"
 #include "muro/ext/run_control.hpp"
 #include "muro/plugin.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro/vocabulary.hpp"
 #include "panels.hpp"
 #include "plugins/common/image_file/png.hpp"
@@ -63,7 +63,6 @@ constexpr Description description{
 class Window final : public Algorithm, private PauseAttendant {
  public:
   ~Window() override {
-    if (control_) control_->remove_attendant(*this);
     if (screen_) release();
   }
 
@@ -97,7 +96,6 @@ class Window final : public Algorithm, private PauseAttendant {
     simulation_ = Inspection::of(c.host());
     control_ = RunControl::of(c.host());
     if (!simulation_ || !control_) throw Error("this host does not show its simulation to windows");
-    control_->add_attendant(*this);
     panels_.edits.connect(*control_);
     scene_.connect(c, render::ShapeSource::visual, tolerance);
     panels_.connect(c);
@@ -108,6 +106,10 @@ class Window final : public Algorithm, private PauseAttendant {
     overlay_.connect_by_name(c);
     bodies_.connect_sensors(c);
     team_.connect(c, bodies_);
+  }
+
+  void* find_extension(const ExtensionId& id) override {
+    return id == PauseAttendant::id() ? static_cast<PauseAttendant*>(this) : nullptr;
   }
 
   void restored() override {
@@ -194,7 +196,7 @@ class Window final : public Algorithm, private PauseAttendant {
     for (const RobotView* robot : c.robots())
       if (robot->name == name) panels_.selected = robot->base();
     if (panels_.selected == no_object) panels_.selected = c.find_object(name);
-    if (panels_.selected == no_object || c.robot_of(panels_.selected) < 0)
+    if (panels_.selected == no_object || c.robot_of(panels_.selected) == no_robot)
       throw Error("follow names `" + name + "`, which is neither a robot nor a part of one");
     orbit_camera_.mode = OrbitCamera::Mode::follow;
     starts_behind_target_ = true;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The layout of all structs that plugins and hosts hand each other. It is the same in all minor versions of a major
-// one: tests/abi has it on record.
+// The layout of all structs that plugins and hosts hand each other. All minor versions of a major version agree on it:
+// tests/abi has it on record.
 #pragma once
 
-#include "muro/abi.hpp"
+#include "muro/detail/abi.hpp"
 #include "muro/detail/layout.hpp"
 #include "muro/scene.hpp"
 
@@ -11,7 +11,9 @@ namespace muro::abi {
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Winvalid-offsetof"
-/// Every struct that crosses the boundary, member by member; of classes with hidden members the size.
+/// Every struct that crosses the boundary, member by member, as in version N.0; classes with hidden members by their
+/// size. A struct that may grow is listed without its size, and members that later minor versions add at its end are not
+/// listed: plugins of N.0 have the same hash.
 inline constexpr Place contract_places[] = {
     MURO_SIZE(Pose),
     MURO_PLACE(Pose, position),
@@ -37,6 +39,7 @@ inline constexpr Place contract_places[] = {
     MURO_PLACE(ValueType, align),
     MURO_PLACE(ValueType, scalar),
     MURO_PLACE(ValueType, labels),
+    MURO_PLACE(ValueType, grows),
     MURO_SIZE(KeyInfo),
     MURO_PLACE(KeyInfo, name),
     MURO_PLACE(KeyInfo, unit),
@@ -46,6 +49,7 @@ inline constexpr Place contract_places[] = {
     MURO_SIZE(ArrayHeader),
     MURO_PLACE(ArrayHeader, data),
     MURO_PLACE(ArrayHeader, size),
+    MURO_PLACE(ArrayHeader, element_size),
     MURO_SIZE(ListHeader),
     MURO_PLACE(ListHeader, data),
     MURO_PLACE(ListHeader, size),
@@ -61,7 +65,7 @@ inline constexpr Place contract_places[] = {
     MURO_PLACE(Surface, restitution),
     MURO_PLACE(Surface, rolling_resistance),
     MURO_PLACE(Surface, spinning_resistance),
-    MURO_SIZE(Shape),
+    MURO_GROWS(Shape),
     MURO_PLACE(Shape, kind),
     MURO_PLACE(Shape, mesh),
     MURO_PLACE(Shape, texture),
@@ -78,7 +82,7 @@ inline constexpr Place contract_places[] = {
     MURO_PLACE(JointLimits, damping),
     MURO_PLACE(JointLimits, friction),
     MURO_PLACE(JointLimits, armature),
-    MURO_SIZE(Link),
+    MURO_GROWS(Link),
     MURO_PLACE(Link, object),
     MURO_PLACE(Link, parent),
     MURO_PLACE(Link, joint),
@@ -89,9 +93,9 @@ inline constexpr Place contract_places[] = {
     MURO_PLACE(Link, mimic),
     MURO_PLACE(Link, mimic_multiplier),
     MURO_PLACE(Link, mimic_offset),
-    MURO_SIZE(RobotView),
+    MURO_GROWS(RobotView),
     MURO_PLACE(RobotView, name),
-    MURO_PLACE(RobotView, number),
+    MURO_PLACE(RobotView, id),
     MURO_PLACE(RobotView, key),
     MURO_PLACE(RobotView, links),
     MURO_SIZE(Aabb),
@@ -132,7 +136,14 @@ inline constexpr Place contract_places[] = {
     MURO_PLACE(Contact, surface),
     MURO_PLACE(Contact, self_shape),
     MURO_PLACE(Contact, other_shape),
-    MURO_SIZE(Parameter),
+    MURO_SIZE(ContactWrench),
+    MURO_PLACE(ContactWrench, body),
+    MURO_PLACE(ContactWrench, other),
+    MURO_PLACE(ContactWrench, point),
+    MURO_PLACE(ContactWrench, normal),
+    MURO_PLACE(ContactWrench, depth),
+    MURO_PLACE(ContactWrench, wrench),
+    MURO_GROWS(Parameter),
     MURO_PLACE(Parameter, name),
     MURO_PLACE(Parameter, type),
     MURO_PLACE(Parameter, unit),
@@ -146,18 +157,18 @@ inline constexpr Place contract_places[] = {
     MURO_PLACE(Parameter, max),
     MURO_PLACE(Parameter, length),
     MURO_PLACE(Parameter, choices),
-    MURO_SIZE(ParameterValue),
+    MURO_GROWS(ParameterValue),
     MURO_PLACE(ParameterValue, name),
     MURO_PLACE(ParameterValue, number),
     MURO_PLACE(ParameterValue, text),
     MURO_PLACE(ParameterValue, reals),
     MURO_PLACE(ParameterValue, texts),
     MURO_PLACE(ParameterValue, given),
-    MURO_SIZE(PropertyUse),
+    MURO_GROWS(PropertyUse),
     MURO_PLACE(PropertyUse, key),
     MURO_PLACE(PropertyUse, doc),
     MURO_PLACE(PropertyUse, when),
-    MURO_SIZE(Description),
+    MURO_GROWS(Description),
     MURO_PLACE(Description, id),
     MURO_PLACE(Description, kind),
     MURO_PLACE(Description, version),
@@ -167,12 +178,12 @@ inline constexpr Place contract_places[] = {
     MURO_PLACE(Description, writes),
     MURO_PLACE(Description, capabilities),
     MURO_PLACE(Description, features),
-    MURO_SIZE(ReaderDescription),
+    MURO_GROWS(ReaderDescription),
     MURO_PLACE(ReaderDescription, id),
     MURO_PLACE(ReaderDescription, version),
     MURO_PLACE(ReaderDescription, summary),
     MURO_PLACE(ReaderDescription, extensions),
-    MURO_SIZE(Step),
+    MURO_GROWS(Step),
     MURO_PLACE(Step, time),
     MURO_PLACE(Step, dt),
     MURO_PLACE(Step, index),
@@ -181,12 +192,12 @@ inline constexpr Place contract_places[] = {
     MURO_SIZE(Range),
     MURO_PLACE(Range, begin),
     MURO_PLACE(Range, end),
-    MURO_SIZE(Phase),
+    MURO_GROWS(Phase),
     MURO_PLACE(Phase, index_space),
     MURO_PLACE(Phase, scope),
     MURO_PLACE(Phase, fine_grained),
     MURO_PLACE(Phase, enabled),
-    MURO_SIZE(Item),
+    MURO_GROWS(Item),
     MURO_PLACE(Item, robot),
     MURO_PLACE(Item, object),
     MURO_PLACE(Item, level),
@@ -194,21 +205,28 @@ inline constexpr Place contract_places[] = {
     MURO_PLACE(Usage, access),
     MURO_PLACE(Usage, creation),
     MURO_PLACE(Usage, is_optional),
-    MURO_SIZE(FoundProperty),
+    MURO_GROWS(FoundProperty),
     MURO_PLACE(FoundProperty, object),
     MURO_PLACE(FoundProperty, key),
     MURO_PLACE(FoundProperty, multiplicity),
     MURO_PLACE(FoundProperty, count),
     MURO_PLACE(FoundProperty, is_constant),
     MURO_PLACE(FoundProperty, is_sum),
+    MURO_SIZE(Rows<Link>),
+    MURO_SIZE(ExtensionId),
+    MURO_PLACE(ExtensionId, name),
+    MURO_PLACE(ExtensionId, version),
+    MURO_PLACE(ExtensionId, layout),
     MURO_SIZE(Parameters),
     MURO_SIZE(ErrorText),
     MURO_SIZE(AlgorithmEntry),
     MURO_PLACE(AlgorithmEntry, description),
     MURO_PLACE(AlgorithmEntry, create),
+    MURO_PLACE(AlgorithmEntry, description_size),
     MURO_SIZE(ReaderEntry),
     MURO_PLACE(ReaderEntry, description),
     MURO_PLACE(ReaderEntry, create),
+    MURO_PLACE(ReaderEntry, description_size),
 };
 #pragma GCC diagnostic pop
 

@@ -2,7 +2,7 @@
 // Algorithms and readers as the host calls them: what they throw becomes a text.
 #pragma once
 
-#include "muro/abi.hpp"
+#include "muro/detail/abi.hpp"
 
 namespace muro::abi::detail {
 
@@ -32,7 +32,13 @@ class AlgorithmOf final : public AlgorithmInstance {
   bool start(ErrorText& e) noexcept override {
     return guarded(e, [&] { algorithm_.start(); });
   }
-  std::span<const Phase> phases() const noexcept override { return algorithm_.phases(); }
+  Rows<Phase> phases() const noexcept override { return algorithm_.phases(); }
+  void* find_extension(const ExtensionId& id) noexcept override {
+    ErrorText error;
+    void* found = nullptr;
+    guarded(error, [&] { found = algorithm_.find_extension(id); });
+    return found;
+  }
   bool step(const Step& s, Range r, ErrorText& e) noexcept override {
     return guarded(e, [&] { algorithm_.step(s, r); });
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the parts of structs and the functions of interfaces lie, as numbers that two libraries can compare.
+// Places of members in structs and of functions in interfaces, as numbers that two libraries can compare.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,17 @@
 
 namespace muro::abi {
 
-/// Where a member lies in its struct, or, for the struct itself, what it takes.
+/// Place of a member in its struct, or alignment and size of the struct itself.
 struct Place {
   std::string_view name;     ///< "Shape.size"; "Shape"
   std::uint32_t offset = 0;  ///< bytes; of a struct itself: its alignment
-  std::uint32_t size = 0;    ///< bytes
+  std::uint32_t size = 0;    ///< bytes; 0: a struct that may grow
 };
 
 #define MURO_SIZE(STRUCT) \
   ::muro::abi::Place { #STRUCT, alignof(STRUCT), sizeof(STRUCT) }
+#define MURO_GROWS(STRUCT) \
+  ::muro::abi::Place { #STRUCT, alignof(STRUCT), 0 }
 #define MURO_PLACE(STRUCT, MEMBER) \
   ::muro::abi::Place { #STRUCT "." #MEMBER, offsetof(STRUCT, MEMBER), sizeof(STRUCT::MEMBER) }  // NOLINT: of pointers
 
@@ -42,13 +44,13 @@ std::uint64_t virtual_place(Function function) {
   std::uintptr_t words[2];
   std::memcpy(words, &function, sizeof words);
 #if defined(__aarch64__) || defined(__arm__)
-  return words[0];  // the other word tells that it is virtual
+  return words[0];  // the other word says that it is virtual
 #else
   return words[0] - 1;
 #endif
 }
 
-/// Has one more virtual function than `Interface`: its place tells how many that has.
+/// Has one more virtual function than `Interface`, whose place is the number of functions of `Interface`.
 template <class Interface>
 class OneMore : public Interface {
  public:
@@ -58,7 +60,7 @@ class OneMore : public Interface {
   ~OneMore() = default;
 };
 
-/// The stamp of an extension: of its structs, and of the places of its functions and their number.
+/// The stamp of an extension: a hash of the places of its structs and functions, and of their number.
 template <class Interface, class... Functions>
 std::uint32_t extension_layout(std::span<const Place> structs, Functions... functions) {
   std::uint32_t hash = layout_of(structs);

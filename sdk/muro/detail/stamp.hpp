@@ -2,8 +2,9 @@
 // The stamp of the compiler, libraries and layout that this source is compiled with.
 #pragma once
 
-#include "muro/abi.hpp"
-#include "muro/shape.hpp"
+#include "muro/detail/abi.hpp"
+#include "muro/key.hpp"
+#include "muro/robot.hpp"
 
 #ifdef __FAST_MATH__
 #error "muro plugins are not built with -ffast-math: it changes the arithmetic of the whole process when loaded"
@@ -20,44 +21,32 @@
 
 namespace muro::abi {
 
-/// Values whose layout both sides must agree on.
+/// Values whose layout both sides must agree on before the host reads a table.
 struct Probe {
   char a;
   Pose pose;
-  Shape shape;
+  Inertia inertia;
+  JointLimits limits;
   std::string_view text;
-  Description description;
+  KeyInfo key;
 };
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Winvalid-offsetof"
-/// A hash of the places of what shapes and descriptions hold; that of all structs is layout_of_contract().
+/// A hash of the places of members of these values; that of all structs is layout_of_contract().
 constexpr std::uint32_t layout_of_values() {
-  constexpr std::size_t places[] = {sizeof(Pose),
-                                    offsetof(Pose, orientation),
-                                    sizeof(Inertia),
-                                    offsetof(Inertia, ixy),
-                                    sizeof(Shape),
-                                    offsetof(Shape, mesh),
-                                    offsetof(Shape, texture),
-                                    offsetof(Shape, material_source),
-                                    offsetof(Shape, size),
-                                    offsetof(Shape, origin),
-                                    offsetof(Shape, surface),
-                                    sizeof(Surface),
-                                    offsetof(Shape, color),
-                                    sizeof(Parameter),
-                                    offsetof(Parameter, choices),
-                                    sizeof(KeyInfo),
-                                    offsetof(KeyInfo, doc),
-                                    offsetof(Description, capabilities)};
+  constexpr std::size_t places[] = {sizeof(Pose),        offsetof(Pose, orientation),
+                                    sizeof(Inertia),     offsetof(Inertia, ixy),
+                                    sizeof(JointLimits), offsetof(JointLimits, armature),
+                                    sizeof(KeyInfo),     offsetof(KeyInfo, type),
+                                    offsetof(KeyInfo, doc)};
   std::uint32_t hash = 2166136261u;  // FNV-1a
   for (const std::size_t place : places) hash = (hash ^ std::uint32_t(place)) * 16777619u;
   return hash;
 }
 #pragma GCC diagnostic pop
 
-/// The stamp of what is being compiled.
+/// The stamp of the source that is being compiled.
 constexpr Stamp make_stamp() {
   Stamp s{};
   std::copy_n("MUROPLUG", 8, s.magic);

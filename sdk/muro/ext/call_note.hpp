@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an algorithm is busy with: named by the host when a call fails, crashes or does not return.
+// Notes about the running call of an algorithm, for messages when it fails, crashes or does not return.
 #pragma once
 
 #include <atomic>
@@ -9,8 +9,8 @@
 
 namespace muro {
 
-/// What one thread is busy with within a call of an algorithm. To set it is a plain store, so a step does it for each
-/// item. The host clears it before each call.
+/// The item and the library that one thread serves within a call of an algorithm. A set is a plain store, so a step does
+/// it for each item. The host clears the note before each call.
 struct CallNote {
   static constexpr std::uint32_t no_item = ~std::uint32_t(0);
 
@@ -29,11 +29,11 @@ struct CallNote {
 /// An extension of hosts, version 1.
 class CallNotes {
  public:
-  /// That of the calling thread, valid as long as this thread. [any thread]
+  /// Returns the note of the calling thread, valid as long as this thread. [any thread]
   virtual CallNote& of_this_thread() noexcept = 0;
 
   static ExtensionId id() noexcept;
-  /// The host's, or null where it has none. [setup]
+  /// Returns the host's, or null. [setup]
   static CallNotes* of(Host& host) { return static_cast<CallNotes*>(host.find_extension(id())); }
 
  protected:

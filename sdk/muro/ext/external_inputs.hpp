@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What comes from outside of the simulation, each with the instant at which it takes effect: recorded, and replayed.
+// Inputs from outside of the simulation, each with the instant at which it takes effect: recorded, and replayed.
 #pragma once
 
 #include "muro/connector.hpp"
@@ -7,30 +7,30 @@
 
 namespace muro {
 
-/// Something that came from outside. What it means, its channel alone knows.
+/// An input from outside. Only its channel knows its meaning.
 struct ExternalInput {
   std::uint32_t kind = 0;
-  std::uint32_t source = 0;  ///< of several on one channel, such as the clients of a server
-  std::string_view bytes;    ///< good until the channel's next call
+  std::uint32_t source = 0;  ///< one of several on one channel, such as the clients of a server
+  std::string_view bytes;    ///< valid until the channel's next call
 };
 
-/// A recorded input. They are in order of `epoch`, then of `time`; on one channel also within an instant.
+/// A recorded input. Inputs are in order of `epoch`, then of `time`; on one channel also within an instant.
 struct RecordedInput {
   std::string_view channel;
-  std::uint64_t epoch = 0;  ///< how often the simulation was reset or restored before
+  std::uint64_t epoch = 0;  ///< number of resets and restored snapshots before
   std::int64_t time = 0;    ///< ns of simulated time
   ExternalInput input;
 };
 
-/// Where the inputs of one stream, or of one program beside the simulation, come in.
+/// Inputs of one stream, or of one program beside the simulation.
 class InputChannel {
  public:
-  /// Whether a recording stands in for the outside: then nothing is opened, started or waited for. From start() on.
+  /// Whether a recording replaces the outside: then nothing is opened, started or waited for. From start() on.
   virtual bool is_replayed() const noexcept = 0;
-  /// `input` takes effect in the step at `time`. Copies. [step]
+  /// Records that `input` takes effect in the step at `time`. Copies. [step]
   virtual void record(std::int64_t time, const ExternalInput& input) noexcept = 0;
   /// In a replay: takes the next input that was recorded for `time`. False: there is no other. [step]
-  /// With a `time` below 0, from start() on: the next of all, where the scenario is only looked at; else none.
+  /// With a `time` below 0, from start() on: takes the next input of all, when the scenario is only inspected.
   virtual bool replay(std::int64_t time, ExternalInput& input) noexcept = 0;
 
  protected:
@@ -50,31 +50,30 @@ class InputSink {
 /// outside.
 class ExternalInputs {
  public:
-  /// The channel of this name, which is the same in each run of a scenario: "rovers_3/laser". One name, one user:
-  /// null when it is taken. [setup]
+  /// Returns the channel of this name, which is the same in each run of a scenario: "rovers_3/laser". A name has one
+  /// user: null when it is taken. [setup]
   virtual InputChannel* channel(std::string_view name) noexcept = 0;
-  /// Whether the outside may be opened: not where a scenario is only looked at. From start() on.
+  /// Whether the outside may be opened: not when a scenario is only inspected. From start() on.
   virtual bool may_open() const noexcept = 0;
-  /// Who records. One at most: false when there is one already. [setup]
+  /// Sets the recorder of inputs. False: there is one already. [setup]
   virtual bool set_sink(InputSink* sink) noexcept = 0;
-  /// What stands in for the outside in this run. Copies. False when there is a recording already. [setup]
+  /// Sets the recording that replaces the outside in this run. Copies. False: there is one already. [setup]
   virtual bool set_recording(std::span<const RecordedInput> inputs) noexcept = 0;
-  /// Inputs of the recording that nobody has taken, and the channel of the first of them; 0 when all were. [finish]
+  /// Returns the number of inputs of the recording that nobody has taken, and the channel of the first one. [finish]
   virtual std::uint64_t unused(std::string_view& channel) const noexcept = 0;
-  /// Of the seed and of the state of all robots before the first step: tells whether a recording belongs to this
-  /// scenario. [step]
+  /// Returns a hash of the seed and of the state of all robots before the first step: it says whether a recording
+  /// belongs to this scenario. [step]
   virtual std::uint64_t initial_hash() const noexcept = 0;
-  /// Of the state of all robots now: what is beside them, such as a camera that looks on, has no say in it. [between
-  /// steps]
+  /// Returns a hash of the state of all robots now, without other objects such as a free camera. [between steps]
   virtual std::uint64_t robots_hash() const noexcept = 0;
-  virtual std::int64_t time() const noexcept = 0;    ///< ns, of the state now [between steps]
-  virtual std::uint64_t epoch() const noexcept = 0;  ///< of the state now [between steps]
-  /// The run cannot be repeated from its scenario alone: an external client did not answer in time, for example.
-  /// Reports say why. [any thread]
+  virtual std::int64_t time() const noexcept = 0;    ///< ns, time of the present state [between steps]
+  virtual std::uint64_t epoch() const noexcept = 0;  ///< epoch of the present state [between steps]
+  /// Notes that the run cannot be repeated from its scenario alone: an external client did not answer in time, for
+  /// example. Reports say why. [any thread]
   virtual void not_repeatable(std::string_view why) noexcept = 0;
 
   static ExtensionId id() noexcept;
-  /// The host's, or null where it has none. [setup]
+  /// Returns the host's, or null. [setup]
   static ExternalInputs* of(Host& host) { return static_cast<ExternalInputs*>(host.find_extension(id())); }
 
  protected:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a window on a running simulation may ask of its host.
+// Properties and costs of a running simulation, for windows and remote controls.
 #pragma once
 
 #include "muro/connector.hpp"
@@ -18,32 +18,32 @@ struct LiveProperty {
   std::string_view written_by;  ///< the algorithm; empty: the set-up
 };
 
-/// What an algorithm has cost so far.
+/// Cost of an algorithm so far.
 struct LiveCost {
   std::string_view name;  ///< "rovers.motion"
   std::uint64_t runs = 0;
   double seconds = 0;       ///< of the wall clock, over all threads
-  bool runs_alone = false;  ///< of an algorithm that runs alone: it may hold waiting as well
+  bool runs_alone = false;  ///< the algorithm runs alone: `seconds` may include waiting
 };
 
 /// An extension of hosts, version 1. For algorithms that run alone, in their steps: nothing else runs then. Views are
-/// good until the next call.
+/// valid until the next call.
 class Inspection {
  public:
-  /// All properties of an object by name, in order of creation. [step]
+  /// Returns all properties of an object by name, in order of creation. [step]
   virtual std::span<const LiveProperty> properties(ObjectId object) noexcept = 0;
   virtual std::span<const LiveCost> costs() noexcept = 0;
   virtual std::uint32_t object_count() const noexcept = 0;
-  /// "?" where there is none.
+  /// Returns "?" when there is no such object.
   virtual std::string_view object_name(ObjectId object) const noexcept = 0;
   virtual std::string_view text(TextId id) const noexcept = 0;
   /// Ends the run soon, a few instants later. [step]
   virtual void stop() noexcept = 0;
-  /// Whether the run is to end, by whatever: a step that waits goes on then. [step]
+  /// Whether the run is to end, for any reason: a step that waits returns then. [step]
   virtual bool is_stopping() const noexcept = 0;
 
   static ExtensionId id() noexcept;
-  /// The host's, or null where it has none. [setup]
+  /// Returns the host's, or null. [setup]
   static Inspection* of(Host& host) { return static_cast<Inspection*>(host.find_extension(id())); }
 
  protected:

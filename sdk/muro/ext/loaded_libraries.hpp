@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where an algorithm that loads libraries of its own tells of them.
+// Libraries that algorithms load themselves, for the report.
 #pragma once
 
 #include "muro/connector.hpp"
@@ -7,21 +7,21 @@
 
 namespace muro {
 
-/// A library that an algorithm has loaded, as it stands in reports.
+/// A library that an algorithm has loaded.
 struct LoadedLibrary {
   std::string_view path;  ///< absolute
   std::string_view name;  ///< as the library calls itself
   std::string_view version;
 };
 
-/// An extension of hosts, version 1: reports name the libraries that are told here beside those of plugins.
+/// An extension of hosts, version 1. Reports name these libraries beside those of plugins.
 class LoadedLibraries {
  public:
-  /// Told twice, it stands in reports once. The texts are copied. [setup]
+  /// Adds a library; reports name each once. Copies the texts. [setup]
   virtual void add(const LoadedLibrary& library) noexcept = 0;
 
   static ExtensionId id() noexcept;
-  /// The host's, or null where it has none. [setup]
+  /// Returns the host's, or null. [setup]
   static LoadedLibraries* of(Host& host) { return static_cast<LoadedLibraries*>(host.find_extension(id())); }
 
  protected:

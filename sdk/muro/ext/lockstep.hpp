@@ -9,10 +9,10 @@ namespace muro {
 
 /// A stream of an external client for which time waits.
 ///
-/// A client may have several streams. Time goes on only while the client is owed something: while a message of it, on
-/// whatever stream, has not been answered yet. When all are answered it is the client's turn, and time stands at the
-/// next step of an algorithm that serves one of its streams, until the client has sent another message. A stream with
-/// a subscription (measurements that keep coming without being asked for one by one) is never waited for by itself.
+/// A client may have several streams. Time goes on only while an answer is due to the client: while one of its messages,
+/// on any stream, is not answered yet. When all messages are answered it is the client's turn: time stops at the next step
+/// of an algorithm that serves one of its streams, until the client has sent another message. Time never waits for a
+/// stream alone that has a subscription (measurements that come without single requests).
 class LockstepStream {
  public:
   enum class Outcome : std::uint8_t {
@@ -20,14 +20,14 @@ class LockstepStream {
     timed_out,  ///< nothing has come within the time-out
     stopping,   ///< the run is to end
   };
-  /// A client is there, or has left: nobody waits for one that has left. [any thread]
+  /// Notes that a client is there, or has left: time does not wait for a client that has left. [any thread]
   virtual void set_connected(bool connected) noexcept = 0;
-  /// A whole message has arrived, which a step will take. [any thread]
+  /// Notes that a whole message has arrived, which a step will take. [any thread]
   virtual void message_arrived() noexcept = 0;
-  /// A message that has arrived was answered, or needs no answer. [step]
+  /// Notes that a message was answered, or needs no answer. [step]
   virtual void message_answered() noexcept = 0;
   virtual void set_subscribed(bool subscribed) noexcept = 0;  ///< [step]
-  /// Returns when time may leave the instant `time`. [step]
+  /// Waits until time may leave the instant `time`. [step]
   virtual Outcome wait(std::int64_t time) noexcept = 0;
 
  protected:
@@ -37,12 +37,12 @@ class LockstepStream {
 /// An extension of hosts, version 1.
 class Lockstep {
  public:
-  /// Adds a stream to `client`, the name of a program outside. `timeout`: s of the wall clock that a wait may take. The
-  /// stream is good as long as the simulation. [setup]
+  /// Adds a stream to `client`, the name of a program outside. `timeout`: s of the wall clock that a wait may take.
+  /// Returns the stream, valid as long as the simulation. [setup]
   virtual LockstepStream& join(std::string_view client, std::string_view stream, double timeout) noexcept = 0;
 
   static ExtensionId id() noexcept;
-  /// The host's, or null where it has none. [setup]
+  /// Returns the host's, or null. [setup]
   static Lockstep* of(Host& host) { return static_cast<Lockstep*>(host.find_extension(id())); }
 
  protected:

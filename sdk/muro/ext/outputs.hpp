@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which files a run writes: hosts know it before it begins.
+// Files that a run writes: hosts know them before it begins.
 #pragma once
 
 #include "muro/connector.hpp"
@@ -7,18 +7,17 @@
 
 namespace muro {
 
-/// An extension of hosts, version 1. An algorithm that writes files names them in `connect` or `connect_by_name`. A
-/// host refuses the run when two outputs would be one file, or an output would overwrite what the scenario is read
-/// from.
+/// An extension of hosts, version 1. An algorithm that writes files names them in `connect` or `connect_by_name`. A host
+/// refuses the run when two outputs are one file, or an output overwrites a file that the scenario is read from.
 class Outputs {
  public:
-  /// The file at `path`; a relative path starts in the working directory. [setup]
+  /// Names the file at `path`; a relative path starts in the working directory. [setup]
   virtual void file(std::string_view path) noexcept = 0;
-  /// Files whose names are `begin`, a number such as a time in digits with a point, and `end`. [setup]
+  /// Names files with `begin`, a number such as a time in digits with a point, and `end`. [setup]
   virtual void series(std::string_view begin, std::string_view end) noexcept = 0;
 
   static ExtensionId id() noexcept;
-  /// The host's, or null where it has none. [setup]
+  /// Returns the host's, or null. [setup]
   static Outputs* of(Host& host) { return static_cast<Outputs*>(host.find_extension(id())); }
 
  protected:

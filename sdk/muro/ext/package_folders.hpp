@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Where a reader of models asks for the folders of packages that its user has named.
+// The folders of packages that a user has named, for readers of models.
 #pragma once
 
 #include <span>
-#include <string_view>
+
+#include "muro/detail/layout.hpp"
+#include "muro/extension.hpp"
 
 namespace muro {
 
@@ -13,19 +15,18 @@ struct PackageFolder {
   std::string_view folder;  ///< absolute
 };
 
-inline namespace package_folders_1 {
-
-/// A RobotBuilder or WorldBuilder may also be this. A builder is asked by its type, whose name has the version of this
-/// interface in it: one of another version is none.
+/// An extension of hosts, version 1, for readers: ask the builder for it.
 class PackageFolders {
  public:
-  /// Each name once. They go before whatever else the reader would look for. Valid while the reader reads. [setup]
+  /// Returns each name once. These folders have priority over all others that a reader searches. Valid while the reader
+  /// reads. [setup]
   virtual std::span<const PackageFolder> package_folders() const noexcept = 0;
 
-  /// Of `builder`; none where it does not know any.
+  static ExtensionId id() noexcept;
+  /// Returns the folders that the host of a RobotBuilder or WorldBuilder names; none when it has no such extension.
   template <class Builder>
-  static std::span<const PackageFolder> of(const Builder& builder) {
-    const auto* known = dynamic_cast<const PackageFolders*>(&builder);
+  static std::span<const PackageFolder> of(Builder& builder) {
+    const auto* known = static_cast<const PackageFolders*>(builder.find_extension(id()));
     return known ? known->package_folders() : std::span<const PackageFolder>();
   }
 
@@ -33,6 +34,10 @@ class PackageFolders {
   ~PackageFolders() = default;
 };
 
-}  // namespace package_folders_1
+inline ExtensionId PackageFolders::id() noexcept {
+  static constexpr abi::Place structs[] = {MURO_SIZE(PackageFolder), MURO_PLACE(PackageFolder, name),
+                                           MURO_PLACE(PackageFolder, folder)};
+  return {"muro.PackageFolders", 1, abi::extension_layout<PackageFolders>(structs, &PackageFolders::package_folders)};
+}
 
 }  // namespace muro

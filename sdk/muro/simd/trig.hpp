@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sine and cosine over any scalar of lane.hpp: the same bits for a double and for a lane, on every machine, and those
-// of elementary::sincos (muro/toolkit/elementary.hpp).
+// of elementary::sincos (muro/base/elementary.hpp).
 #pragma once
 
 #include <sleef.h>

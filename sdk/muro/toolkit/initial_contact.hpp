@@ -26,7 +26,8 @@ class InitialContact {
     std::vector<MeshFile> files;
     for (std::uint32_t i = 0; i < c.object_count(); ++i) {
       const ObjectId object{i};
-      if (c.robot_of(object) < 0) add(c, vertices, files, object, -1, c.constant(object, keys::pose).value_or(Pose{}));
+      if (c.robot_of(object) == no_robot)
+        add(c, vertices, files, object, no_robot, c.constant(object, keys::pose).value_or(Pose{}));
     }
     for (const RobotView* robot : c.robots()) {
       if (c.constant(robot->base(), keys::shadow_of)) continue;
@@ -36,18 +37,17 @@ class InitialContact {
         const Link& link = robot->links[i];
         poses[i] = i == 0 ? c.constant(link.object, keys::initial_pose).value_or(Pose{})
                           : poses[std::size_t(link.parent)] * pose_in_parent(link, positions[i]);
-        add(c, vertices, files, link.object, std::int32_t(robot->number), poses[i]);
+        add(c, vertices, files, link.object, robot->id, poses[i]);
       }
     }
   }
 
   /// Whether a shape of the robot overlaps, or is within 1 mm of, one of another robot or of scenery.
   bool touches(const RobotView& robot) const {
-    const auto own = std::int32_t(robot.number);
     for (const Box& a : boxes_) {
-      if (a.robot != own) continue;
+      if (a.robot != robot.id) continue;
       for (const Box& b : boxes_)
-        if (b.robot != own && (a.is_unknown || b.is_unknown || a.bounds.overlaps(b.bounds))) return true;
+        if (b.robot != robot.id && (a.is_unknown || b.is_unknown || a.bounds.overlaps(b.bounds))) return true;
       for (const Pose& plane : planes_)
         if (distance(a, plane) < margin) return true;
     }
@@ -59,7 +59,7 @@ class InitialContact {
   static constexpr std::int32_t no_mesh = -1;
   struct Box {
     Aabb bounds;  ///< with half the margin
-    std::int32_t robot = -1;
+    RobotId robot = no_robot;
     bool is_unknown = false;      ///< it is a mesh whose vertices are not known
     std::int32_t mesh = no_mesh;  ///< in meshes_
     Shape shape;
@@ -80,7 +80,7 @@ class InitialContact {
   }
 
   void add(const Connector& c, const MeshVertices& vertices, std::vector<MeshFile>& files, ObjectId object,
-           std::int32_t robot, const Pose& body) {
+           RobotId robot, const Pose& body) {
     const Vec3 half_margin = Vec3::Constant(0.5 * margin);
     for (const Shape& shape : c.constant_array(object, keys::collision_shapes)) {
       const Pose pose = body * shape.origin;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {

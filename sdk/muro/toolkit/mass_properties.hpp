@@ -6,7 +6,7 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/toolkit/link_pose.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {
@@ -42,7 +42,7 @@ inline std::vector<Inertia> inertias_of(const Connector& connector, const RobotV
 }
 
 /// All bodies of a robot as one, in the frame of its base. `inertias`, `positions`: one a link.
-inline Inertia composite_inertia(std::span<const Link> links, std::span<const Inertia> inertias,
+inline Inertia composite_inertia(Rows<Link> links, std::span<const Inertia> inertias,
                                  std::span<const double> positions) {
   std::vector<Pose> in_base(links.size());
   Inertia whole;

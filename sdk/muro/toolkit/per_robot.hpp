@@ -77,7 +77,9 @@ class PerRobotAlgorithm : public Algorithm {
     read_parameters(c.parameters());
     notes_ = CallNotes::of(c.host());
     robots_.reserve(c.items().size());
-    for (const Item& item : NotedSpan(c.items().data(), {0, std::uint32_t(c.items().size())}, note())) {
+    CallNote* const noted = note();
+    for (const Item& item : c.items()) {
+      if (noted) noted->set_item(std::uint32_t(robots_.size()));
       if (!item.robot) throw Error("it serves robots, but no robot is named");
       robots_.push_back(connect_robot(c, item));
     }

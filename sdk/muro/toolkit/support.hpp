@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "muro/toolkit/bounds.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/bounds.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace muro {
 

@@ -29,7 +29,8 @@ inline constexpr Key<ObjectId> encoder_joint{
 inline constexpr Key<double> encoder_position{"encoder.position", "rad or m", "of the joint, as counted"};
 inline constexpr Key<double> encoder_velocity{"encoder.velocity", "rad/s or m/s", "of the joint, as measured"};
 inline constexpr Key<std::int64_t> encoder_count{"encoder.count", "1", "steps of the encoder from position 0"};
-inline constexpr Key<std::uint32_t> foot_contact{"foot.contact", "1", "1: the foot stands on something"};
+inline constexpr Key<std::uint32_t> foot_contact{"foot.contact", "1", "1: the foot stands on something",
+                                                 Role::motion_trait};
 inline constexpr Key<double> foot_force{"foot.force", "N", "along z of the device, upwards: sum of the cells"};
 inline constexpr Key<Vec3> foot_center_of_pressure{
     "foot.center_of_pressure", "m", "where the force acts: in the frame of the device, 0 without a force"};

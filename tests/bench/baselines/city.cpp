@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 #include "muro/toolkit/rotations.hpp"
 
 namespace muro::bench {

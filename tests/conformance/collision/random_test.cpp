@@ -3,7 +3,7 @@
 // a pair can be parted.
 #include <random>
 
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/collision/touching.hpp"
 #include "tests/support/randoms.hpp"

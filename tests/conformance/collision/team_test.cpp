@@ -115,9 +115,9 @@ TEST_P(EveryCollisionOfATeam, ListsAreSortedByOwnAndOtherBodyAndShape) {
   crowd.step_once();
   World& world = crowd.world();
   const auto pair_of = [&](const Contact& c) {  // scenery as declared, then robots by their keys
-    const std::int32_t other_robot = world.robot_of(c.other);
-    const std::uint64_t key = other_robot < 0 ? 0 : world.robots()[std::size_t(other_robot)]->key;
-    return std::tuple(c.self, other_robot >= 0, key, c.other, c.self_shape, c.other_shape);
+    const RobotId other_robot = world.robot_of(c.other);
+    const std::uint64_t key = other_robot == no_robot ? 0 : world.robots()[index_of(other_robot)]->key;
+    return std::tuple(c.self, other_robot != no_robot, key, c.other, c.self_shape, c.other_shape);
   };
   for (std::size_t i = 0; i < crowd.all.size(); ++i) {
     if (!crowd.moved_by_forces[i]) continue;

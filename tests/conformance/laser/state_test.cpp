@@ -24,7 +24,7 @@ struct Crowd : Room {
   }
   void drive() {
     for (const RobotView* r : world().robots())
-      world().value(r->base(), keys::command_twist) = {{0.3 + 0.05 * r->number, 0, 0}, {0, 0, 0.5}};
+      world().value(r->base(), keys::command_twist) = {{0.3 + 0.05 * double(index_of(r->id)), 0, 0}, {0, 0, 0.5}};
   }
 };
 

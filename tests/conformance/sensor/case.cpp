@@ -161,7 +161,7 @@ ObjectId Trial::add_sensor(const std::string& id, const std::string& on, Paramet
 
 void Trial::start(Parameters parameters) {
   const auto knows = [&](const std::string& name) {
-    const std::span<const Parameter> known = description_of(motion_).parameters;
+    const Rows<Parameter> known = description_of(motion_).parameters;
     return std::any_of(known.begin(), known.end(), [&](const Parameter& p) { return p.name == name; });
   };
   std::erase_if(parameters, [&](const auto& p) { return !knows(p.first); });

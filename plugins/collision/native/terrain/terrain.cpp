@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace muro::native {
 namespace {

@@ -11,7 +11,7 @@ namespace muro::native {
 void Terrains::connect(Connector& c) {
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {
     const ObjectId object{i};
-    if (c.robot_of(object) >= 0) continue;
+    if (c.robot_of(object) != no_robot) continue;
     for (const Shape& s : c.constant_array(object, keys::collision_shapes)) {
       if (s.kind != ShapeKind::heightmap) continue;
       try {
@@ -29,7 +29,7 @@ void Terrains::connect(Connector& c) {
 void Terrains::start(std::span<const Collider> colliders, double radius) {
   if (!by_collider_.empty() || files_.empty()) return;  // scenery does not move
   for (const Collider& c : colliders) {
-    if (c.robot >= 0) break;
+    if (c.robot != no_robot) break;
     const auto file = std::find_if(files_.begin(), files_.end(), [&](const File& f) { return f.shape == c.shape; });
     by_collider_.push_back(file == files_.end() ? nullptr : &terrains_.emplace_back(file->map, c.pose(), radius));
   }

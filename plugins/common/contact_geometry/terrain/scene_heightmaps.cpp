@@ -9,7 +9,7 @@ namespace muro::terrain_contact {
 void SceneHeightmaps::load(Connector& c) {
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {
     const ObjectId object{i};
-    if (c.robot_of(object) >= 0) continue;
+    if (c.robot_of(object) != no_robot) continue;
     for (const Shape& s : c.constant_array(object, keys::collision_shapes)) {
       if (s.kind != ShapeKind::heightmap || files_.contains(s.mesh)) continue;
       try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "terrain_contacts.hpp"
 
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 #include "shape_contacts.hpp"
 
 namespace muro::terrain_contact {

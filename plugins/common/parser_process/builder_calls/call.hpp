@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "model_constants.hpp"
-#include "muro/ext/model_subsystems.hpp"
-#include "muro/ext/visual_materials.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::builder_calls {

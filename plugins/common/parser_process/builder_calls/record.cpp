@@ -109,13 +109,13 @@ void WorldRecorder::friction_rule(std::uint32_t rule) noexcept {
   out_.value(rule);
 }
 
-void WorldRecorder::scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
-                            std::span<const Shape> visuals) noexcept {
+void WorldRecorder::scenery(std::string_view name, const Pose& pose, const Rows<Shape>& collisions,
+                            const Rows<Shape>& visuals) noexcept {
   out_.value(Call::scenery);
   out_.text(name);
   out_.value(pose);
-  out_.list(collisions);
-  out_.list(visuals);
+  out_.list(std::span<const Shape>(std::vector<Shape>(collisions.begin(), collisions.end())));
+  out_.list(std::span<const Shape>(std::vector<Shape>(visuals.begin(), visuals.end())));
 }
 
 RobotBuilder& WorldRecorder::model(std::string_view name, const Pose& pose) noexcept {

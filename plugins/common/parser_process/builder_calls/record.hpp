@@ -41,8 +41,8 @@ class WorldRecorder final : public WorldBuilder {
   explicit WorldRecorder(parser_process::Writer& out) : out_(out) {}
 
   void gravity(const Vec3& acceleration) noexcept override;
-  void scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
-               std::span<const Shape> visuals) noexcept override;
+  void scenery(std::string_view name, const Pose& pose, const Rows<Shape>& collisions,
+               const Rows<Shape>& visuals) noexcept override;
   RobotBuilder& model(std::string_view name, const Pose& pose) noexcept override;
   TextId intern(std::string_view text) noexcept override;
   void report(Severity severity, std::string_view text, int line, int column) noexcept override;

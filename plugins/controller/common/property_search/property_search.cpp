@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/text/quote.hpp"
 
@@ -32,14 +32,14 @@ PropertyReference read_reference(std::string_view text) {
 
 RobotObjects::RobotObjects(const Connector& connector) : begins_(connector.robots().size() + 1) {
   const std::uint32_t count = connector.object_count();
-  std::vector<std::int32_t> robots(count);
+  std::vector<RobotId> robots(count);
   for (std::uint32_t o = 0; o < count; ++o)
-    if ((robots[o] = connector.robot_of(ObjectId{o})) >= 0) ++begins_[std::size_t(robots[o]) + 1];
+    if ((robots[o] = connector.robot_of(ObjectId{o})) != no_robot) ++begins_[index_of(robots[o]) + 1];
   std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
   objects_.resize(begins_.back());
   std::vector<std::size_t> next = begins_;
   for (std::uint32_t o = 0; o < count; ++o)
-    if (robots[o] >= 0) objects_[next[std::size_t(robots[o])]++] = ObjectId{o};
+    if (robots[o] != no_robot) objects_[next[index_of(robots[o])]++] = ObjectId{o};
 }
 
 PropertySearch::PropertySearch(const Connector& connector, const Item& item, const RobotObjects& of_robots)
@@ -51,7 +51,7 @@ PropertySearch::PropertySearch(const Connector& connector, const Item& item, con
   if (item.robot) add(item.robot->base());
   preferred_ = objects_.size();
   if (item.robot)
-    for (const ObjectId o : of_robots.of(item.robot->number)) add(o);
+    for (const ObjectId o : of_robots.of(index_of(item.robot->id))) add(o);
 }
 
 std::vector<FoundProperty> PropertySearch::candidates(std::string_view property) const {
@@ -138,19 +138,19 @@ std::vector<ObjectId> PropertySearch::own_objects() const {
 }
 
 bool PropertySearch::is_own(ObjectId object) const {
-  return item_.robot && connector_.robot_of(object) == std::int32_t(item_.robot->number);
+  return item_.robot && connector_.robot_of(object) == item_.robot->id;
 }
 
 bool PropertySearch::is_shadow(ObjectId object) const {
-  const std::int32_t robot = connector_.robot_of(object);
-  return robot >= 0 && connector_.constant(connector_.robots()[std::size_t(robot)]->base(), keys::shadow_of);
+  const RobotId robot = connector_.robot_of(object);
+  return robot != no_robot && connector_.constant(connector_.robots()[index_of(robot)]->base(), keys::shadow_of);
 }
 
 JointKind PropertySearch::joint_of(ObjectId object) const {
   object = connector_.constant(object, keys::encoder_joint).value_or(object);
-  const std::int32_t robot = connector_.robot_of(object);
-  if (robot < 0) return JointKind::fixed;
-  for (const Link& link : connector_.robots()[std::size_t(robot)]->links)
+  const RobotId robot = connector_.robot_of(object);
+  if (robot == no_robot) return JointKind::fixed;
+  for (const Link& link : connector_.robots()[index_of(robot)]->links)
     if (link.joint_object == object) return link.joint;
   return JointKind::fixed;
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/did_you_mean.hpp"
+#include "muro/base/number_text.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/controller/common/stream/baud_rates.hpp"
 

@@ -61,7 +61,7 @@ class FakeReport final : public ReportEntries {
   std::vector<std::pair<std::string, std::uint64_t>> numbers;
   void set(const ReportEntry& entry) noexcept override {
     const auto text = [](std::string_view part) { return std::string(part) + "/"; };
-    numbers.emplace_back(text(entry.section) + text(entry.name) + std::string(entry.key), entry.value);
+    numbers.emplace_back(text(entry.section) + text(entry.name) + std::string(entry.key), std::uint64_t(entry.value));
   }
 };
 
@@ -99,7 +99,7 @@ class FakeConnector final : public Connector {
   }
   mutable FakeHost fake_host;
 
-  std::span<const Item> items() const noexcept override { return items_; }
+  Rows<Item> items() const noexcept override { return items_; }
   const Parameters& parameters() const noexcept override { return parameters_; }
   const Parameters& parameters_of(std::uint32_t) const noexcept override { return parameters_; }
   Host& host() const noexcept override { return fake_host; }
@@ -110,9 +110,9 @@ class FakeConnector final : public Connector {
   std::string_view object_name(ObjectId) const noexcept override { return {}; }
   ObjectId find_object(std::string_view) const noexcept override { return no_object; }
   std::span<const RobotView* const> robots() const noexcept override { return {}; }
-  std::int32_t robot_of(ObjectId) const noexcept override { return -1; }
+  RobotId robot_of(ObjectId) const noexcept override { return no_robot; }
   std::string_view text(TextId) const noexcept override { return {}; }
-  std::span<const FoundProperty> properties(ObjectId) const noexcept override { return {}; }
+  Rows<FoundProperty> properties(ObjectId) const noexcept override { return {}; }
   bool is_used(ObjectId, const KeyInfo&, Usage) const noexcept override { return false; }
   void* state_block(ObjectId, std::string_view, std::uint32_t) noexcept override { return nullptr; }
 

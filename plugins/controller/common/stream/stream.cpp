@@ -5,7 +5,7 @@
 
 #include "muro/algorithm.hpp"
 #include "muro/ext/report_entries.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/controller/common/stream/live_stream.hpp"
 #include "plugins/controller/common/stream/looked_at_stream.hpp"
@@ -124,7 +124,7 @@ class Stream::Impl {
         {"bytes_in", s.bytes_in},         {"bytes_out", s.bytes_out}, {"dropped", s.dropped},
         {"disconnected", s.disconnected}, {"lost", s.lost},           {"held_back", s.held_back}};
     if (report)
-      for (const auto& [key, value] : numbers) report->set({"streams", name, key, value});
+      for (const auto& [key, value] : numbers) report->set({"streams", name, key, double(value)});
     if (s.refused + s.dropped + s.disconnected == 0) return;
     host.log(LogLevel::warning,
              "stream " + quote(name) + " (" + address.text() + ") had trouble with clients: it refused " +

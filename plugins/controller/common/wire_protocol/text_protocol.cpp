@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/controller/common/wire_protocol/number_text.hpp"
 #include "plugins/controller/common/wire_protocol/protocol.hpp"

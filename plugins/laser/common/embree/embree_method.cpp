@@ -55,7 +55,7 @@ void Embree::check() const {
 
 void Embree::connect(Connector& c) {
   const auto shapes_of = [&](ObjectId object) { return c.constant_array(object, keys::collision_shapes); };
-  const auto add_all = [&](const scene_bodies::SceneBody& body, std::span<const Shape> shapes) {
+  const auto add_all = [&](const scene_bodies::SceneBody& body, Rows<Shape> shapes) {
     for (const Shape& shape : shapes) add(c, {.shape = shape, .body = body});
   };
   scene_bodies::for_each_body(c, shapes_of, add_all);
@@ -76,7 +76,7 @@ void Embree::add(Connector& c, const BodyShape& s) {
     heightmap_shapes_.push_back(s);
     heightmap_surfaces_.push_back(heightmaps_.file(std::string(c.text(s.shape.mesh))).heightmap(s.shape.size));
   } else {
-    (s.body.robot >= 0 ? robot_shapes_ : scenery_shapes_).push_back(s);
+    (s.body.robot != no_robot ? robot_shapes_ : scenery_shapes_).push_back(s);
   }
 }
 
@@ -139,7 +139,7 @@ void Embree::start() {
     place(instance);
     const unsigned id = rtcAttachGeometry(scene_, instance.geometry);
     rtcReleaseGeometry(instance.geometry);  // the scene keeps it
-    robot_of_.resize(std::max<std::size_t>(robot_of_.size(), id + 1), -1);
+    robot_of_.resize(std::max<std::size_t>(robot_of_.size(), id + 1), no_robot);
     object_of_.resize(robot_of_.size(), no_object);
     robot_of_[id] = instance.shape.body.robot;
     object_of_[id] = instance.shape.body.object;
@@ -151,7 +151,7 @@ void Embree::start() {
 void Embree::update() {
   robots_.update();
   for (const MeshInstance& instance : mesh_instances_)
-    if (instance.shape.body.robot >= 0) place(instance);
+    if (instance.shape.body.robot != no_robot) place(instance);
   for (BodyShape& plane : planes_) plane.update();
   rtcCommitScene(scene_);
   check();
@@ -163,8 +163,8 @@ void Embree::skip_ignored_robot(const RTCFilterFunctionNArguments* a) {
   for (unsigned i = 0; i < a->N; ++i) {
     const unsigned instance = RTCHitN_instID(a->hit, a->N, i, 0);
     if (a->valid[i] == 0 || instance == RTC_INVALID_GEOMETRY_ID) continue;
-    const std::int32_t robot = query.robot_of_instance[instance];
-    if (robot >= 0 && robot == query.ignored_robot) a->valid[i] = 0;
+    const RobotId robot = query.robot_of_instance[instance];
+    if (robot != no_robot && robot == query.ignored_robot) a->valid[i] = 0;
   }
 }
 
@@ -204,7 +204,7 @@ void Embree::intersect_scene(RayQuery& query, std::uint32_t count, double max_ra
 
 void Embree::intersect_planes(const RayQuery& query, std::uint32_t count) const {
   for (const BodyShape& plane : planes_) {
-    if (plane.body.robot >= 0 && plane.body.robot == query.ignored_robot) continue;
+    if (plane.body.robot != no_robot && plane.body.robot == query.ignored_robot) continue;
     for (std::uint32_t i = 0; i < count; ++i) {
       const double distance = plane.distance(query.origin, query.directions[i]);
       if (distance < query.ranges[i]) query.ranges[i] = distance, query.objects[i] = plane.body.object;

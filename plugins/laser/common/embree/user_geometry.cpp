@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "muro/scene.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 #include "plugins/laser/common/raycast/intersect.hpp"
 
 namespace muro::embree {
@@ -81,7 +81,7 @@ void UserGeometry::bounds(const RTCBoundsFunctionArguments* a) {
 void UserGeometry::intersect(const RTCIntersectFunctionNArguments* a) {
   const BodyShape& s = static_cast<const UserGeometry*>(a->geometryUserPtr)->shapes_[a->primID];
   const RayQuery& rays = *reinterpret_cast<const RayQuery*>(a->context);
-  if (s.body.robot >= 0 && s.body.robot == rays.ignored_robot) return;
+  if (s.body.robot != no_robot && s.body.robot == rays.ignored_robot) return;
   RTCRayN* const ray = RTCRayHitN_RayN(a->rayhit, a->N);
   RTCHitN* const hit = RTCRayHitN_HitN(a->rayhit, a->N);
   for (unsigned i = 0; i < a->N; ++i) {

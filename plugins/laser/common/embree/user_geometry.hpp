@@ -31,8 +31,8 @@ struct RayQuery {
   const Vec3* directions = nullptr;  ///< in the world
   double* ranges = nullptr;          ///< m, the shortest so far
   ObjectId* objects = nullptr;       ///< that was hit at this range
-  std::int32_t ignored_robot = -1;
-  const std::int32_t* robot_of_instance = nullptr;  ///< by geometry
+  RobotId ignored_robot = no_robot;
+  const RobotId* robot_of_instance = nullptr;  ///< by geometry
 };
 
 /// Shapes that Embree finds by their bounding boxes.

@@ -107,7 +107,7 @@ TEST(LaserEdge, DecidesInDoublesOnWhichSideOfAnEdgeARayPasses) {
       for (std::uint32_t i = 0; i < pattern.size(); ++i) {
         const RayPacket& b = pattern.packets()[0];
         const Reference::Hit expected =
-            Reference::cast(scene.index(), from.device, {b.x[i], b.y[i], b.z[i]}, 0, from.max_range, -1);
+            Reference::cast(scene.index(), from.device, {b.x[i], b.y[i], b.z[i]}, 0, from.max_range, no_robot);
         EXPECT_EQ(found[i], expected.body) << "round " << round << " ray " << i;
         if (expected.body == no_object) {
           EXPECT_EQ(ranges[i], from.max_range);
@@ -161,7 +161,7 @@ TEST(LaserEdge, GivesTheSameBitsWithEveryInstructionSet) {
       scene.add_robot({{dice.shape(0.1, 0.5), dice.pose(8)}, {dice.shape(0.1, 0.5), dice.pose(8)}});
     SceneTable table;
     table.build(scene.index());
-    const Viewpoint from{dice.pose(8), dice.between(4, 40), round % 3 - 1, 0.02};
+    const Viewpoint from{dice.pose(8), dice.between(4, 40), round % 3 == 0 ? no_robot : RobotId(std::uint32_t(round % 3 - 1)), 0.02};
     for (const RayPattern& pattern : patterns) {
       std::vector<double> first, ranges(pattern.size());
       std::vector<ObjectId> first_hits, hits(pattern.size());

@@ -249,11 +249,11 @@ TEST(LaserHeightmap, IsSolidBelowHoweverDeep) {
     const Land land = slope(pose);
     const RayPattern pattern(Grid{.min_angle = -pi, .max_angle = pi, .columns = 33});
     for (const double z : {5.9999, 3.0, 0.0, -1.0, -500.0}) {
-      const Land::Scan s = land.scan({pose * Pose{{0, 0, z}, dice.rotation()}, 10, -1, 0.02}, pattern);
+      const Land::Scan s = land.scan({pose * Pose{{0, 0, z}, dice.rotation()}, 10, no_robot, 0.02}, pattern);
       for (const double range : s.ranges) EXPECT_EQ(range, 0.02) << z;
       for (const ObjectId hit : s.hits) EXPECT_EQ(hit, land_object);
     }
-    const Land::Scan beside = land.scan({pose * Pose{{40, 0, -1}, dice.rotation()}, 10, -1, 0.02}, pattern);
+    const Land::Scan beside = land.scan({pose * Pose{{40, 0, -1}, dice.rotation()}, 10, no_robot, 0.02}, pattern);
     for (const double range : beside.ranges) EXPECT_EQ(range, 10);
   }
 }

@@ -164,7 +164,7 @@ inline std::uint32_t gather_candidates(const SceneView& view, const ScanQuery& q
   });
   find_in_range(view.moving, query, [&](const BoxBlock& boxes, const BlockFromScanner& relative, unsigned found) {
     for (unsigned f = found; f != 0; f &= f - 1)
-      if (std::int32_t(boxes.item[__builtin_ctz(f)]) == query.ignored_robot) found &= ~(f & -f);
+      if (boxes.item[__builtin_ctz(f)] == query.ignored_robot) found &= ~(f & -f);
     add(relative, found, [&](std::uint32_t i) {
       scratch.robots[robots] = {boxes.item[i], -1};
       return robots++ | robot_bit;

@@ -18,7 +18,7 @@ ScanQuery query_of(const Viewpoint& from, const RayPattern& pattern) {
   }
   q.min_range = from.min_range;
   q.max_range = from.max_range;
-  q.ignored_robot = from.ignored_robot;
+  q.ignored_robot = index_of(from.ignored_robot);
   q.packets = pattern.packets().data();
   q.sectors = pattern.sectors().data();
   q.sector_count = std::uint32_t(pattern.sectors().size());

@@ -49,7 +49,7 @@ class Scan {
   void gather_planes() {
     for (std::uint32_t i = 0; i < view_.plane_count; ++i) {
       const Plane& plane = view_.planes[i];
-      if (plane.robot >= 0 && plane.robot == query_.ignored_robot) continue;
+      if (plane.robot != no_robot_index && plane.robot == query_.ignored_robot) continue;
       const V3<double> normal = vector_at(plane.normal);
       const double height = dot(normal, vector_at(query_.position)) - plane.offset;
       if (height > query_.max_range * steepest_descent(normal)) continue;

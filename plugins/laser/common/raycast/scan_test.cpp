@@ -124,7 +124,7 @@ TEST(LaserScan, AgreesWithBruteForceForAllPatternsAmongMovingRobots) {
       move_robots(scene, dice);
       const SceneIndex& index = scene.index();
       for (const RayPattern& pattern : all) {
-        const Viewpoint from{dice.pose(8), dice.between(4, 40), time == 0 ? -1 : time};
+        const Viewpoint from{dice.pose(8), dice.between(4, 40), time == 0 ? no_robot : RobotId(std::uint32_t(time))};
         const Scan found = scan(caster, index, from, 0.02, pattern);
         hits += expect_agreement(index, from, 0.02, pattern, found);
         rays += int(pattern.size());
@@ -148,7 +148,7 @@ TEST(LaserScan, AgreesWithBruteForceForALevelScannerOnATurningRobot) {
   const SceneIndex& index = scene.index();
   for (int i = 0; i < 40; ++i) {
     const Viewpoint from{
-        {{dice.between(-0.9, 0.9), dice.between(-0.9, 0.9), 0.15}, from_rpy(0, 0, i * pi / 20)}, 5.6, -1};
+        {{dice.between(-0.9, 0.9), dice.between(-0.9, 0.9), 0.15}, from_rpy(0, 0, i * pi / 20)}, 5.6, no_robot};
     EXPECT_GT(expect_agreement(index, from, 0.02, pattern, scan(caster, index, from, 0.02, pattern)), 100);
   }
 }
@@ -165,7 +165,7 @@ TEST(LaserScan, SeparatesObjectsAMillimetreBehindEachOther) {
       scene.add_scenery(Shape::box({0.0005, 0.02, 1}), {{distance + behind, 0.02 * i, 0}, Quat::Identity()});
     }
     const SceneIndex& index = scene.index();
-    const Viewpoint from{{}, 5.6, -1};
+    const Viewpoint from{{}, 5.6, no_robot};
     EXPECT_GT(expect_agreement(index, from, 0, pattern, scan(caster, index, from, 0, pattern)), 20);
   }
 }
@@ -180,7 +180,7 @@ TEST(LaserScan, GivesClosedFormDistancesAtAnyIncidenceInAnyFrame) {
       const RayPattern one{std::span<const double>(aim)};
       TestScene wall;
       wall.add_scenery(Shape::box({0.4, 100, 3}), world * Pose{{3.2, 0, 0}, Quat::Identity()});
-      EXPECT_NEAR(scan(caster, wall.index(), {world, 30, -1}, 0, one).ranges[0], 3 / std::cos(incidence), 1e-9);
+      EXPECT_NEAR(scan(caster, wall.index(), {world, 30, no_robot}, 0, one).ranges[0], 3 / std::cos(incidence), 1e-9);
 
       // at 3 m from the surface, turned so that the ray passes the centre at r sin(incidence)
       const double radius = 0.5, centre = 3 + radius, passing = std::asin(radius * std::sin(incidence) / centre);
@@ -190,7 +190,7 @@ TEST(LaserScan, GivesClosedFormDistancesAtAnyIncidenceInAnyFrame) {
       for (const Shape& shape : {Shape::sphere(radius), Shape::cylinder(radius, 2), Shape::capsule(radius, 2)}) {
         TestScene scene;
         scene.add_scenery(shape, world * Pose{{centre, 0, 0}, Quat::Identity()});
-        EXPECT_NEAR(scan(caster, scene.index(), {world, 30, -1}, 0, past).ranges[0], expected, 1e-9);
+        EXPECT_NEAR(scan(caster, scene.index(), {world, 30, no_robot}, 0, past).ranges[0], expected, 1e-9);
       }
     }
   }
@@ -227,7 +227,7 @@ TEST(LaserScan, AgreesWithBruteForceFarFromTheOriginWithAllSizes) {
       const Scan found = scan(caster, index, from, 0, pattern);
       const std::vector<Vec3> rays = directions(pattern);
       for (std::size_t i = 0; i < rays.size(); ++i) {
-        const Reference::Hit expected = Reference::cast(index, from.device, rays[i], 0, range, -1);
+        const Reference::Hit expected = Reference::cast(index, from.device, rays[i], 0, range, no_robot);
         // coordinates are 2^-38 m apart there, and a grazing ray makes more of it
         EXPECT_NEAR(found.ranges[i], double(expected.distance), 1e-8 * std::max(1.0, double(expected.distance)));
         EXPECT_EQ(found.hits[i], expected.body);
@@ -265,10 +265,10 @@ TEST(LaserScan, SeesItsOwnRobotOnlyWhenToldTo) {
   const ObjectId self = scene.add_robot({{Shape::box({0.1, 1, 1}), {{1, 0, 0}, Quat::Identity()}}});
   RayCaster caster;
   const RayPattern ahead{Grid{}};
-  const Scan without = scan(caster, scene.index(), {{}, 10, 1}, 0, ahead);
+  const Scan without = scan(caster, scene.index(), {{}, 10, RobotId{1}}, 0, ahead);
   EXPECT_NEAR(without.ranges[0], 3.5, 1e-12);
   EXPECT_EQ(without.hits[0], other);
-  const Scan with = scan(caster, scene.index(), {{}, 10, -1}, 0, ahead);
+  const Scan with = scan(caster, scene.index(), {{}, 10, no_robot}, 0, ahead);
   EXPECT_NEAR(with.ranges[0], 0.95, 1e-12);
   EXPECT_EQ(with.hits[0], self);
 }
@@ -279,7 +279,7 @@ TEST(LaserScan, ReadsMaxRangeForNothingAndMinRangeForWhatIsTooNear) {
   scene.add_scenery(Shape::box({1, 1, 1}), {{-7, 0, 0}, Quat::Identity()});
   RayCaster caster;
   const Scan s =
-      scan(caster, scene.index(), {{}, 5.6, -1}, 0.2, RayPattern(Grid{.min_angle = 0, .max_angle = pi, .columns = 3}));
+      scan(caster, scene.index(), {{}, 5.6, no_robot}, 0.2, RayPattern(Grid{.min_angle = 0, .max_angle = pi, .columns = 3}));
   EXPECT_EQ(s.ranges, (std::vector<double>{0.2, 5.6, 5.6}));
   EXPECT_EQ(s.hits, (std::vector<ObjectId>{near, no_object, no_object}));
 }
@@ -289,7 +289,7 @@ TEST(LaserScan, ReadsTheLeastRangeFromInsideASolid) {
   const ObjectId solid = scene.add_scenery(Shape::sphere(2), {});
   RayCaster caster;
   const RayPattern round(Grid{.min_angle = -pi, .max_angle = pi, .columns = 36});
-  const Scan s = scan(caster, scene.index(), {{{0.5, 0, 0}, Quat::Identity()}, 5.6, -1}, 0.02, round);
+  const Scan s = scan(caster, scene.index(), {{{0.5, 0, 0}, Quat::Identity()}, 5.6, no_robot}, 0.02, round);
   for (const double r : s.ranges) EXPECT_EQ(r, 0.02);
   for (const ObjectId hit : s.hits) EXPECT_EQ(hit, solid);
 }
@@ -299,7 +299,7 @@ TEST(LaserScan, MeasuresTheHeightOverATiltedPlane) {
   scene.add_scenery(Shape::plane(), {{0, 0, 0}, from_rpy(0.3, 0, 0)});
   RayCaster caster;
   const double down[] = {0, -pi / 2, 0, pi / 2};
-  const Scan s = scan(caster, scene.index(), {{{5, 1, 2}, Quat::Identity()}, 50, -1}, 0,
+  const Scan s = scan(caster, scene.index(), {{{5, 1, 2}, Quat::Identity()}, 50, no_robot}, 0,
                       RayPattern(std::span<const double>(down)));
   EXPECT_NEAR(s.ranges[0], 2 - std::tan(0.3), 1e-12);
   EXPECT_EQ(s.ranges[1], 50);
@@ -309,7 +309,7 @@ TEST(LaserScan, SeesAnEmptySceneAsEmpty) {
   RayCaster caster;
   const SceneIndex nothing;
   const Scan s =
-      scan(caster, nothing, {{}, 5.6, -1}, 0, RayPattern(Grid{.min_angle = -1, .max_angle = 1, .columns = 20}));
+      scan(caster, nothing, {{}, 5.6, no_robot}, 0, RayPattern(Grid{.min_angle = -1, .max_angle = 1, .columns = 20}));
   for (const double r : s.ranges) EXPECT_EQ(r, 5.6);
 }
 
@@ -343,7 +343,7 @@ TEST(LaserScan, DoesNotDependOnWhatTheCasterDidBefore) {
   const RayPattern pattern(Grid{.min_angle = -pi, .max_angle = pi, .columns = 360});
   RayCaster used;
   for (int i = 0; i < 10; ++i) {
-    const Viewpoint from{dice.pose(8), 20, -1};
+    const Viewpoint from{dice.pose(8), 20, no_robot};
     RayCaster fresh;
     const Scan a = scan(used, index, from, 0, pattern), b = scan(fresh, index, from, 0, pattern);
     EXPECT_EQ(a.ranges, b.ranges);

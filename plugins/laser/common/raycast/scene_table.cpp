@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene_table.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 #include "plugins/common/heightmap/solid.hpp"
 
 namespace muro::raycast {
@@ -61,7 +61,7 @@ void SceneTable::build(const SceneIndex& scene, const HeightTrees& trees) {
   for (std::uint32_t i = 0; i < scene.colliders.size(); ++i) {
     const Collider& c = scene.colliders[i];
     bodies_.push_back(c.body);
-    if (c.shape->kind == ShapeKind::heightmap && c.robot < 0) {
+    if (c.shape->kind == ShapeKind::heightmap && c.robot == no_robot) {
       const HeightTree* tree = trees.find(*c.shape);
       if (!tree) continue;
       primitive_of_collider[i] = std::uint32_t(primitives_.size());
@@ -75,18 +75,18 @@ void SceneTable::build(const SceneIndex& scene, const HeightTrees& trees) {
     }
     if (!has_bounds(*c.shape)) continue;
     primitive_of_collider[i] = std::uint32_t(primitives_.size());
-    if (c.robot < 0) {
+    if (c.robot == no_robot) {
       primitives_.push_back(primitive_of(*c.shape, c.pose(), i));
       continue;
     }
-    PrimitiveRange& range = robots_[std::size_t(c.robot)];
+    PrimitiveRange& range = robots_[index_of(c.robot)];
     if (range.count++ == 0) range.first = primitive_of_collider[i];
     Primitive s = primitive_of(*c.shape, c.shape->origin, i);
     if (s.kind == PrimitiveKind::aligned_box) s.kind = PrimitiveKind::box;  // its body turns
     s.body = c.body_pose->position.data();
     primitives_.push_back(s);
   }
-  for (const std::uint32_t i : scene.planes) planes_.push_back({.id = i, .robot = scene.colliders[i].robot});
+  for (const std::uint32_t i : scene.planes) planes_.push_back({.id = i, .robot = index_of(scene.colliders[i].robot)});
 
   Vec3 centre = Vec3::Zero();
   if (!scene.scenery.nodes.empty())

@@ -11,6 +11,9 @@ namespace muro::raycast {
 
 enum class PrimitiveKind : std::uint32_t { aligned_box, box, sphere, cylinder, capsule, heightmap };
 
+/// index_of(no_robot): kernels know no objects.
+inline constexpr std::uint32_t no_robot_index = 0xffffffffu;
+
 /// A bounded shape. `axes` and `position` are those of the shape in the world for scenery, in its body for a robot.
 struct Primitive {
   PrimitiveKind kind = PrimitiveKind::box;  ///< aligned_box: parallel to the axes of the world
@@ -53,7 +56,7 @@ struct Plane {
   double normal[3] = {};
   double offset = 0;
   std::uint32_t id = 0;
-  std::int32_t robot = -1;
+  std::uint32_t robot = no_robot_index;
 };
 
 /// Sixteen boxes parallel to the axes of the world, as a structure of arrays. An empty box has low > high.
@@ -91,7 +94,7 @@ struct ScanQuery {
   double position[3] = {};
   double axes[9] = {};  ///< row by row: direction in the world = axes * direction in the device's frame
   double min_range = 0, max_range = 0;
-  std::int32_t ignored_robot = -1;  ///< number of a robot that is not seen; -1: none
+  std::uint32_t ignored_robot = no_robot_index;  ///< a robot that is not seen
   const RayPacket* packets = nullptr;
   const Sector* sectors = nullptr;
   std::uint32_t sector_count = 0;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "muro/scene.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 
 namespace muro::raycast::test {
 
@@ -38,7 +38,7 @@ class TestScene {
     planes_.clear();
     boxes_.clear();
     std::uint32_t body = 1;
-    for (const PlacedShape& p : scenery_) add(p, ObjectId(body++), -1, 0);
+    for (const PlacedShape& p : scenery_) add(p, ObjectId(body++), no_robot, 0);
     std::vector<std::uint32_t> items;
     std::vector<Aabb> bounds;
     for (std::uint32_t i = 0; i < colliders_.size(); ++i) {
@@ -54,7 +54,7 @@ class TestScene {
       box.first = std::uint32_t(colliders_.size());
       box.count = std::uint32_t(robots_[r].size());
       for (std::uint32_t k = 0; k < robots_[r].size(); ++k) {
-        add(robots_[r][k], ObjectId(body), std::int32_t(r), k);
+        add(robots_[r][k], ObjectId(body), RobotId{r}, k);
         box.bounds.include(bounds_of(colliders_.back()));
       }
       boxes_.push_back(box);
@@ -69,7 +69,7 @@ class TestScene {
   }
 
  private:
-  void add(const PlacedShape& p, ObjectId body, std::int32_t robot, std::uint32_t shape_index) {
+  void add(const PlacedShape& p, ObjectId body, RobotId robot, std::uint32_t shape_index) {
     if (p.shape.kind == ShapeKind::plane) planes_.push_back(std::uint32_t(colliders_.size()));
     colliders_.push_back({&p.shape, &p.pose, body, robot, shape_index});
   }
@@ -127,11 +127,11 @@ class Reference {
   };
 
   static Hit cast(const SceneIndex& scene, const Pose& device, const Vec3& direction, double min_range,
-                  double max_range, std::int32_t ignored_robot) {
+                  double max_range, RobotId ignored_robot) {
     const Vector start = of(device.position), d = rotated(device.orientation, of(direction), 1);
     Hit best{max_range, no_object};
     for (const Collider& c : scene.colliders) {
-      if (c.robot >= 0 && c.robot == ignored_robot) continue;
+      if (c.robot != no_robot && c.robot == ignored_robot) continue;
       const Vector p = of(c.pose().position);
       const Vector o = rotated(c.pose().orientation, {start.x - p.x, start.y - p.y, start.z - p.z}, -1);
       const Real t = enter(*c.shape, o, rotated(c.pose().orientation, d, -1));

@@ -11,7 +11,7 @@ namespace muro::scanner {
 struct Viewpoint {
   Pose device;                      ///< in the world
   double max_range = 0;             ///< m
-  std::int32_t ignored_robot = -1;  ///< the number of a robot that is not seen; -1: none
+  RobotId ignored_robot = no_robot;  ///< a robot that is not seen
   double min_range = 0;             ///< m, the reading of what is nearer
 };
 

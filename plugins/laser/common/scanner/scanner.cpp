@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "plugins/common/link_motion/constant_twist.hpp"
 #include "plugins/common/text/counted.hpp"
 #include "scratch.hpp"
@@ -112,7 +112,7 @@ void Scanner::bind(Connector& c, const Item& item) {
   d.ranges = c.variable_array(sensor, keys::ranges, size());
   if (hits) d.hits = c.variable_array(sensor, keys::laser_hits, size());
   if (incidence) d.incidence = c.variable_array(sensor, keys::laser_incidence, size());
-  if (item.robot && !p.boolean("see_self")) d.ignored_robot = std::int32_t(item.robot->number);
+  if (item.robot && !p.boolean("see_self")) d.ignored_robot = item.robot->id;
   if (sweep_) {
     d.previous_pose = c.variable(sensor, key_sweep_pose, Pose{});
     d.sweep_ranges = c.variable_array(sensor, key_sweep_ranges, size());

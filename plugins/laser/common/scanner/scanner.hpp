@@ -29,7 +29,7 @@ class Scanner : public Algorithm {
     In<Pose> pose;
     ArrayOut<double> ranges, incidence;
     ArrayOut<ObjectId> hits;
-    std::int32_t ignored_robot = -1;
+    RobotId ignored_robot = no_robot;
     Out<Pose> previous_pose;                         ///< at the step before
     ArrayOut<double> sweep_ranges, sweep_incidence;  ///< of the scan in progress
     ArrayOut<ObjectId> sweep_hits;

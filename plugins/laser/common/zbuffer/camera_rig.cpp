@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro/toolkit/rotations.hpp"
 
 namespace muro::zbuffer {

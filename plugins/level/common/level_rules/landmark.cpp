@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "muro/toolkit/bounds.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/bounds.hpp"
+#include "muro/base/did_you_mean.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/heightmap/heightmap_file.hpp"
 #include "plugins/common/mesh/mesh.hpp"
@@ -33,7 +33,7 @@ std::vector<std::string> names_of_scenery(const Connector& c) {
   std::vector<std::string> names;
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {
     const ObjectId object{i};
-    if (c.robot_of(object) >= 0) continue;
+    if (c.robot_of(object) != no_robot) continue;
     if (!c.constant_array(object, keys::collision_shapes).empty() ||
         !c.constant_array(object, keys::visual_shapes).empty())
       names.emplace_back(c.object_name(object));

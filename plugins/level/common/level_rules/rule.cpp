@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::level {

@@ -46,7 +46,7 @@ void RulesAlgorithm::connect_robot(Connector& c, const RobotView& view) {
     r.conditions.push_back(read_condition(c, view, text, levels));
     r.by_contact = r.by_contact || r.conditions.back().rule.by_contact();
   }
-  r.number = std::int32_t(view.number);
+  r.id = view.id;
   r.pose = c.read(view.base(), keys::pose);
   r.level = c.read(view.base(), keys::motion_level);
   r.choice = c.optional_output(view.base(), keys::motion_level_rule);
@@ -82,7 +82,7 @@ void RulesAlgorithm::choose(const Robot& r, const Step& step, std::optional<doub
 
 bool RulesAlgorithm::is_in_contact(const Robot& r) {
   for (const Contact& contact : *r.contacts)
-    if (const std::int32_t other = r.robot_of[index_of(contact.other)]; other >= 0 && other != r.number) return true;
+    if (const RobotId other = r.robot_of[index_of(contact.other)]; other != no_robot && other != r.id) return true;
   return false;
 }
 

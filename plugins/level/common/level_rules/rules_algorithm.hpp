@@ -53,8 +53,8 @@ class RulesAlgorithm : public Algorithm {
     ListIn<Contact> contacts;
     Out<std::int64_t> switch_time, contact_time;
     Out<std::int32_t> known_level;       ///< in the last run; -1: none yet
-    std::vector<std::int32_t> robot_of;  ///< by object, for rules by contact
-    std::int32_t number = 0;
+    std::vector<RobotId> robot_of;  ///< by object, for rules by contact
+    RobotId id = no_robot;
   };
 
   void connect_robot(Connector& c, const RobotView& view);

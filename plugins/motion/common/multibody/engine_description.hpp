@@ -48,7 +48,7 @@ inline constexpr Features features =
 
 /// What a motion by an engine says of itself.
 constexpr Description engine_description(std::string_view id, std::string_view version, std::string_view summary,
-                                         std::span<const Parameter> parameters, Features more_features = 0) {
+                                         const Rows<Parameter>& parameters, Features more_features = 0) {
   return {.id = id,
           .kind = Kind::motion,
           .version = version,

@@ -19,20 +19,20 @@ void ExternalBodies::connect(Connector& c, const std::vector<bool>& own) {
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (!own[i]) continue;
     const Item& item = c.items()[i];
-    left_out[item.robot->number] = true;
+    left_out[index_of(item.robot->id)] = true;
     if (const auto original = c.constant(item.robot->base(), keys::shadow_of))  // they are in the same place
       left_out[std::size_t(c.robot_of(*original))] = true;
   }
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {
     const ObjectId object{i};
-    if (c.robot_of(object) >= 0) continue;
+    if (c.robot_of(object) != no_robot) continue;
     ExternalBody body = body_of(c, object);
     if (body.shapes.empty()) continue;
     body.pose = c.constant(object, keys::pose).value_or(Pose{});
     scenery_.push_back(std::move(body));
   }
   for (const RobotView* robot : c.robots()) {
-    if (left_out[robot->number] || c.constant(robot->base(), keys::shadow_of)) continue;
+    if (left_out[index_of(robot->id)] || c.constant(robot->base(), keys::shadow_of)) continue;
     for (const Link& link : robot->links) {
       ExternalBody body = body_of(c, link.object);
       if (body.shapes.empty()) continue;

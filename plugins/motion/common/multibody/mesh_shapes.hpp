@@ -28,7 +28,7 @@ class MeshShapes {
     mesh::Store store;
     for (std::uint32_t i = 0; i < c.object_count(); ++i) {
       const ObjectId object{i};
-      const bool hull = !exact || c.robot_of(object) >= 0;
+      const bool hull = !exact || c.robot_of(object) != no_robot;
       for (const Shape& s : c.constant_array(object, keys::collision_shapes)) {
         if (s.kind != ShapeKind::mesh) continue;
         const Key key = key_of(s, hull);
@@ -36,7 +36,7 @@ class MeshShapes {
         try {
           if (!shapes_.contains(key))
             shapes_.emplace(key, hull ? of_hull(store.hull_or_plate(path, s.size)) : of_mesh(store.mesh(path, s.size)));
-          if (!heightmaps_.empty() && c.robot_of(object) >= 0)
+          if (!heightmaps_.empty() && c.robot_of(object) != no_robot)
             hulls_.try_emplace(key, store.hull_or_plate(path, s.size));
         } catch (const Error& error) {
           mesh::refuse_collision_mesh(c, object, error);

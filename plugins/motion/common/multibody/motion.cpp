@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine_parameters.hpp"
-#include "muro/toolkit/random.hpp"
+#include "muro/base/random.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/text/quote.hpp"
 

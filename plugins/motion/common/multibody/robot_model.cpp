@@ -5,7 +5,7 @@
 
 #include "consistent_inertia.hpp"
 #include "missing_inertia.hpp"
-#include "muro/toolkit/bounds.hpp"
+#include "muro/base/bounds.hpp"
 #include "muro/toolkit/link_pose.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/text/quote.hpp"

@@ -6,7 +6,7 @@
 
 #include "joint_drive_target.hpp"
 #include "muro/toolkit/mass_properties.hpp"
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/motion/common/position_drive/joint_target.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "muro/toolkit/bounds.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/bounds.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::watch {

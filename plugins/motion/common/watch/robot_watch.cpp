@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "muro/toolkit/number_text.hpp"
+#include "muro/base/number_text.hpp"
 #include "parameters.hpp"
 #include "plugins/common/text/quote.hpp"
 
@@ -50,7 +50,7 @@ void Surroundings::connect(const Connector& c) {
   host = &c.host();
   for (std::uint32_t i = 0; i < c.object_count(); ++i)
     if (const ObjectId id{i}; !c.constant_array(id, keys::collision_shapes).empty())
-      obstacles.emplace(i, Obstacle{std::string(c.object_name(id)), c.robot_of(id) < 0});
+      obstacles.emplace(i, Obstacle{std::string(c.object_name(id)), c.robot_of(id) == no_robot});
 }
 
 std::string failure_of_numbers(std::string_view robot, const Pose& pose, const Twist& twist, const Wrench& external,

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "muro/toolkit/limits.hpp"
+#include "muro/base/limits.hpp"
 
 namespace muro::sdf_devices {
 

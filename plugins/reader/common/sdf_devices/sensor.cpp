@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "muro/toolkit/elementary.hpp"
-#include "muro/toolkit/limits.hpp"
-#include "muro/toolkit/printable.hpp"
+#include "muro/base/elementary.hpp"
+#include "muro/base/limits.hpp"
+#include "muro/base/printable.hpp"
 #include "muro/toolkit/rotations.hpp"
 
 namespace muro::sdf_devices {

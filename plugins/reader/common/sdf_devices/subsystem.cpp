@@ -6,7 +6,7 @@
 #include <cctype>
 #include <map>
 
-#include "muro/ext/model_subsystems.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "plugins/common/model_file/message.hpp"
 
 namespace muro::sdf_devices {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "muro/toolkit/whole_file.hpp"
+#include "muro/base/whole_file.hpp"
 #include "muro/value_type.hpp"
 
 namespace muro {

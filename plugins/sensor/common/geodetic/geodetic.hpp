@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "muro/geometry.hpp"
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace muro::geodetic {
 

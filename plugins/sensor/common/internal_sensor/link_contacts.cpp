@@ -22,7 +22,7 @@ LinkContacts::LinkContacts(Connector& c, const RobotView& robot, std::uint32_t l
   if (when == When::always) motion_ = list_of(robot.base(), keys::contact_wrenches_of_motion);
   if (!is_kinematic) return;
   for (const RobotView* other : c.robots()) {
-    if (other->number == robot.number || c.constant(other->base(), keys::shadow_of)) continue;
+    if (index_of(other->id) == index_of(robot.id) || c.constant(other->base(), keys::shadow_of)) continue;
     if (const ListIn<ContactWrench> list = list_of(other->base(), keys::contact_wrenches_of_motion))
       others_.push_back(list);
   }

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "muro/toolkit/did_you_mean.hpp"
+#include "muro/base/did_you_mean.hpp"
 #include "plugins/common/text/quote.hpp"
 
 namespace muro::internal_sensor {
@@ -40,7 +40,7 @@ bool fits(std::string_view pattern, std::string_view name) {
 
 std::uint32_t carrying_link(const Connector& c, const Item& item) {
   const ObjectId carrier = carrier_of(c, item);
-  const std::span<const Link> links = item.robot->links;
+  const Rows<Link> links = item.robot->links;
   for (std::uint32_t i = 0; i < links.size(); ++i)
     if (links[i].object == carrier) return i;
   for (const Link& l : links)

@@ -24,9 +24,9 @@ class SceneFrame {
       if (robot->name == name) return LinkMotion(c, *robot, 0, Pose{}, Order::twist);
     ObjectId object = c.find_object(std::string(item.robot->name) + "/" + std::string(name));
     if (object == no_object) object = c.find_object(name);
-    const std::int32_t number = object == no_object ? -1 : c.robot_of(object);
-    if (number >= 0) {
-      const RobotView& robot = *c.robots()[std::size_t(number)];
+    const RobotId id = object == no_object ? no_robot : c.robot_of(object);
+    if (id != no_robot) {
+      const RobotView& robot = *c.robots()[index_of(id)];
       for (std::uint32_t i = 0; i < robot.links.size(); ++i)
         if (robot.links[i].object == object) return LinkMotion(c, robot, i, Pose{}, Order::twist);
     }

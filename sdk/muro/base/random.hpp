@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-#include "muro/toolkit/elementary.hpp"
+#include "muro/base/elementary.hpp"
 
 namespace muro {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What crosses the boundary between host and plugin, and the stamp that says whether it may.
+// The boundary between host and plugin: what crosses it, and the stamp that says whether it may.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace muro::abi {
 
-inline constexpr std::uint32_t sdk_major = 4;
-inline constexpr std::uint32_t sdk_minor = 1;
+inline constexpr std::uint32_t sdk_major = 5;
+inline constexpr std::uint32_t sdk_minor = 0;
 
 /// The C-only head of a plugin's table. Hosts read nothing else before all fields agree with theirs.
 struct Stamp {
@@ -29,14 +29,14 @@ struct Stamp {
   std::uint32_t eigen_malloc_already_aligned;
   std::uint32_t probe_size;
   std::uint32_t probe_align;
-  std::uint32_t probe_layout;  ///< of where its parts have theirs: padding hides what moves within a struct
+  std::uint32_t probe_layout;  ///< hash of the places of its parts: padding hides what moves within a struct
   char compiler[64];           ///< printed, never compared
 };
 
 /// Text of a failure, copied across the boundary.
 class ErrorText {
  public:
-  ErrorText() { buffer_[0] = 0; }  // the rest is written when there is an error
+  ErrorText() { buffer_[0] = 0; }  // an error writes the other bytes
   void set(std::string_view text) noexcept {
     const std::size_t n = std::min(text.size(), sizeof buffer_ - 1);
     std::memcpy(buffer_, text.data(), n);
@@ -48,19 +48,20 @@ class ErrorText {
   char buffer_[2048];
 };
 
-/// An algorithm as the host holds it: nothing throws, false means failure with a text. What a minor version adds here
-/// is not called on plugins of older ones.
+/// An algorithm as the host holds it: nothing throws; false means failure, with a text. Later minor versions add
+/// functions at the end, which a host does not call on plugins of older versions.
 class AlgorithmInstance {
  public:
   virtual bool connect(Connector&, ErrorText&) noexcept = 0;
   virtual bool connect_by_name(Connector&, ErrorText&) noexcept = 0;
   virtual bool start(ErrorText&) noexcept = 0;
-  virtual std::span<const Phase> phases() const noexcept = 0;
+  virtual Rows<Phase> phases() const noexcept = 0;
   virtual bool step(const Step&, Range, ErrorText&) noexcept = 0;
   virtual bool on_handover(std::uint32_t item, ErrorText&) noexcept = 0;
   virtual bool restored(ErrorText&) noexcept = 0;
   virtual bool finish(ErrorText&) noexcept = 0;
   virtual void destroy() noexcept = 0;
+  virtual void* find_extension(const ExtensionId&) noexcept = 0;
 
  protected:
   ~AlgorithmInstance() = default;
@@ -79,13 +80,15 @@ class ReaderInstance {
 struct AlgorithmEntry {
   const Description* description;
   AlgorithmInstance* (*create)(ErrorText*) noexcept;
+  std::uint64_t description_size;  ///< bytes of `description`
 };
 struct ReaderEntry {
   const ReaderDescription* description;
   ReaderInstance* (*create)(ErrorText*) noexcept;
+  std::uint64_t description_size;  ///< bytes of `description`
 };
 
-/// The one thing a plugin exports: `extern "C" const muro::abi::PluginTable muro_plugin`.
+/// The only symbol that a plugin exports: `extern "C" const muro::abi::PluginTable muro_plugin`.
 struct PluginTable {
   Stamp stamp;
   std::uint32_t table_size;
@@ -95,7 +98,7 @@ struct PluginTable {
   std::string_view summary;
   std::span<const AlgorithmEntry> algorithms;
   std::span<const ReaderEntry> readers;
-  std::uint32_t layout;  ///< of the contract's structs: layout_of_contract().
+  std::uint32_t layout;  ///< layout_of_contract()
 };
 
 inline constexpr char table_symbol[] = "muro_plugin";
