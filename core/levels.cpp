@@ -159,10 +159,9 @@ void Levels::complete(World& world) {
 
 abi::AlgorithmInstance* Levels::filter_of(Instance& instance) {
   const std::vector<Item>& items = instance.setup().items;
-  const bool alternates = instance.description().kind == Kind::motion &&
-                          (instance.description().capabilities & Capability::world) == 0 &&
-                          std::any_of(items.begin(), items.end(),
-                                      [&](const Item& i) { return i.robot && find(i.robot->id); });
+  const bool alternates =
+      instance.description().kind == Kind::motion && (instance.description().capabilities & Capability::world) == 0 &&
+      std::any_of(items.begin(), items.end(), [&](const Item& i) { return i.robot && find(i.robot->id); });
   if (!alternates) return &instance.algorithm();
   LevelFilter& filter = *filters_.emplace_back(std::make_unique<LevelFilter>(instance.algorithm(), instance.phases()));
   for (const Item& i : items) {

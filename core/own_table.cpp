@@ -15,8 +15,7 @@ Rows<T> own_rows(const Rows<T>& given, std::deque<std::vector<T>>& memory) {
 }  // namespace
 
 OwnTable::OwnTable(const abi::PluginTable& given) : table_(given) {
-  for (const abi::AlgorithmEntry& e : given.algorithms)
-    algorithms_.push_back({&own(e), e.create, sizeof(Description)});
+  for (const abi::AlgorithmEntry& e : given.algorithms) algorithms_.push_back({&own(e), e.create, sizeof(Description)});
   for (const abi::ReaderEntry& e : given.readers) readers_.push_back({&own(e), e.create, sizeof(ReaderDescription)});
   table_.algorithms = algorithms_;
   table_.readers = readers_;

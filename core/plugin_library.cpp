@@ -10,9 +10,9 @@
 #include "core/error.hpp"
 #include "core/own_table.hpp"
 #include "core/running_call.hpp"
+#include "muro/base/whole_library.hpp"
 #include "muro/detail/contract_layout.hpp"
 #include "muro/detail/stamp.hpp"
-#include "muro/base/whole_library.hpp"
 
 namespace muro {
 

@@ -267,8 +267,9 @@ void* PropertyStore::bind(Accessor accessor, ObjectId object, const KeyInfo& key
   if (creates && multiplicity == Multiplicity::array && count == 0)
     problems_.push_back(where(object, key.name) + " is created as an array without elements by " + who(accessor));
   if (key.type->grows)
-    problems_.push_back(fmt::format("{} is used by {}, but its type {} is for constants: ask for it by constant_array()",
-                                    where(object, key.name), who(accessor), key.type->name));
+    problems_.push_back(
+        fmt::format("{} is used by {}, but its type {} is for constants: ask for it by constant_array()",
+                    where(object, key.name), who(accessor), key.type->name));
   if ((writes(usage) || usage == usage::accumulate) && s->kind == Slot::Class::constant)
     problems_.push_back(fmt::format("{} is a constant, but {} writes it", where(object, key.name), who(accessor)));
   use(*s, id, accessor, usage);

@@ -9,16 +9,16 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "core/own_values.hpp"
 #include "core/extent_along.hpp"
+#include "core/own_values.hpp"
 #include "core/point_bounds.hpp"
 #include "core/value_check.hpp"
-#include "muro/vocabulary/model.hpp"
 #include "muro/base/bounds.hpp"
 #include "muro/base/elementary.hpp"
 #include "muro/base/limits.hpp"
 #include "muro/toolkit/link_pose.hpp"
 #include "muro/vocabulary.hpp"
+#include "muro/vocabulary/model.hpp"
 
 namespace muro {
 

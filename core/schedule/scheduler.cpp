@@ -151,8 +151,8 @@ void Scheduler::find_periods() {
     for (TaskId t = 0; t < tasks_.size(); ++t) counts[t] = asks(tasks_[t]);
     return periods_of_asked(counts);
   };
-  const std::vector<double> of_motions = periods_by([](const Task& t) { return t.part() == InstantPart::moves; }),
-                            of_writers = periods_by([](const Task& t) { return !observes(t); }),
+  const std::vector<double> of_motions = periods_by([](const Task&t) { return t.part() == InstantPart::moves; }),
+                            of_writers = periods_by([](const Task&t) { return !observes(t); }),
                             of_all = periods_by([](const Task&) { return true; });
   for (TaskId t = 0; t < tasks_.size(); ++t)
     if (tasks_[t].rate.on_demand())

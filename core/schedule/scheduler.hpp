@@ -137,8 +137,8 @@ class Scheduler {
   std::vector<Group> groups_;
   std::vector<std::uint32_t> group_of_item_;
   std::vector<std::vector<TaskId>> providers_;  ///< per task: tasks on demand that write what it reads
-  /// Tasks on demand of InstantPart::forces that motions ask for. They run only for motions: a reader in between, or earlier in
-  /// the instant, sees the results of the last step, and does not change them.
+  /// Tasks on demand of InstantPart::forces that motions ask for. They run only for motions: a reader in between, or
+  /// earlier in the instant, sees the results of the last step, and does not change them.
   std::vector<bool> belongs_to_steps_;
   bool starts_ = false;          ///< in the next instant one of them has its first run
   std::vector<double> periods_;  ///< s, per task; on demand: the longest of those that ask, see find_periods

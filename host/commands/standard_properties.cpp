@@ -84,8 +84,8 @@ constexpr const KeyInfo* cameras[] = {
     &keys::camera_cx,    &keys::camera_cy,     &keys::camera_image,          &keys::camera_depth, &keys::camera_labels,
 };
 constexpr const KeyInfo* model_files[] = {
-    &keys::heightmap_values,       &keys::heightmap_columns, &keys::mesh_corners, &keys::model_subsystems,
-    &keys::model_subsystem_places, &keys::visual_materials,
+    &keys::heightmap_values, &keys::heightmap_columns,      &keys::mesh_corners,
+    &keys::model_subsystems, &keys::model_subsystem_places, &keys::visual_materials,
 };
 constexpr const KeyInfo* radios[] = {
     &keys::radio_send_bytes, &keys::radio_send_size,      &keys::radio_send_receiver, &keys::radio_send_number,

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "host/names.hpp"
-#include "muro/toolkit/joint_drives.hpp"
 #include "muro/base/limits.hpp"
+#include "muro/toolkit/joint_drives.hpp"
 
 namespace muro::host {
 

@@ -5,9 +5,9 @@
 
 #include "core/error.hpp"
 #include "core/point_bounds.hpp"
-#include "muro/vocabulary/model.hpp"
 #include "muro/base/bounds.hpp"
 #include "muro/vocabulary.hpp"
+#include "muro/vocabulary/model.hpp"
 
 namespace muro::host {
 

@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "host/names.hpp"
-#include "muro/scene.hpp"
 #include "muro/base/bounds.hpp"
+#include "muro/scene.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro::host {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "muro/base/random.hpp"
 #include "muro/detail/abi.hpp"
 #include "muro/detail/names.hpp"
-#include "muro/base/random.hpp"
 
 namespace muro::abi {
 

@@ -10,8 +10,8 @@
 
 namespace muro {
 
-/// A user's mistake, or a failure of a device, found by an algorithm. The text says what is wrong, which value it is and
-/// what to do; the host adds the names of algorithm and robot, the simulated time and the line of the scenario.
+/// A user's mistake, or a failure of a device, found by an algorithm. The text says what is wrong, which value it is
+/// and what to do; the host adds the names of algorithm and robot, the simulated time and the line of the scenario.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -59,8 +59,8 @@ class Algorithm {
   /// Flushes files: the run is over, or its user is about to read them. [between steps]
   virtual void finish() {}
 
-  /// Returns the algorithm's own interface of this name, version and layout (`id == Interface::id()`), or null. The host
-  /// asks once, after start; the interface is valid as long as the algorithm. [setup]
+  /// Returns the algorithm's own interface of this name, version and layout (`id == Interface::id()`), or null. The
+  /// host asks once, after start; the interface is valid as long as the algorithm. [setup]
   virtual void* find_extension(const ExtensionId& id) {
     static_cast<void>(id);
     return nullptr;

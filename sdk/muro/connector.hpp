@@ -80,8 +80,8 @@ using ConstantArray = std::conditional_t<value_type<T>.grows, Rows<T>, std::span
 class Host {
  public:
   virtual void log(LogLevel level, std::string_view text) noexcept = 0;
-  /// Returns the extension of this name, version and layout, or null. Logs the reason when the host has another version,
-  /// or one with another layout. [setup]
+  /// Returns the extension of this name, version and layout, or null. Logs the reason when the host has another
+  /// version, or one with another layout. [setup]
   virtual void* find_extension(const ExtensionId& id) noexcept {
     static_cast<void>(id);
     return nullptr;
@@ -93,9 +93,9 @@ class Host {
 
 /// Connects one instance of an algorithm to the data of the simulation. [setup]
 ///
-/// Requests may name properties that do not exist yet, so every request succeeds here. When all algorithms are connected
-/// the host reports what is missing, doubled, or of another type, unit or role, with the names of all involved. Handles
-/// may be read from `start()` on.
+/// Requests may name properties that do not exist yet, so every request succeeds here. When all algorithms are
+/// connected the host reports what is missing, doubled, or of another type, unit or role, with the names of all
+/// involved. Handles may be read from `start()` on.
 class Connector {
  public:
   // --- what this instance serves
@@ -121,12 +121,12 @@ class Connector {
   virtual RobotId robot_of(ObjectId object) const noexcept = 0;
   virtual std::string_view text(TextId id) const noexcept = 0;
   /// Returns the properties of one object that exist so far, in order of creation. In `connect_by_name` these are the
-  /// properties that all algorithms have made in `connect`, and earlier kinds in `connect_by_name`. Valid until the next
-  /// call.
+  /// properties that all algorithms have made in `connect`, and earlier kinds in `connect_by_name`. Valid until the
+  /// next call.
   virtual Rows<FoundProperty> properties(ObjectId object) const noexcept = 0;
-  /// Whether an algorithm that is connected so far uses the property in this way. In `connect` the answer depends on the
-  /// order in which kinds connect (see kind_infos). In `connect_by_name` all algorithms have connected, and the bindings
-  /// by name of earlier kinds are known (see by_name_order): motions know what controllers write and read.
+  /// Whether an algorithm that is connected so far uses the property in this way. In `connect` the answer depends on
+  /// the order in which kinds connect (see kind_infos). In `connect_by_name` all algorithms have connected, and the
+  /// bindings by name of earlier kinds are known (see by_name_order): motions know what controllers write and read.
   virtual bool is_used(ObjectId object, const KeyInfo& key, Usage usage) const noexcept = 0;
 
   // --- constants, readable at once
@@ -172,8 +172,8 @@ class Connector {
   SumIn<T> read_sum(ObjectId object, const Key<T>& key) {
     return SumIn<T>(bind(object, key, usage::read_sum, Multiplicity::single, 1, nullptr));
   }
-  /// Returns the address of the value, of the ArrayHeader or ListHeader, or of the SumHeader of a sum: for recorders and
-  /// controllers, which learn the type when they run.
+  /// Returns the address of the value, of the ArrayHeader or ListHeader, or of the SumHeader of a sum: for recorders
+  /// and controllers, which learn the type when they run.
   const void* read_any(const FoundProperty& p) {
     return bind(p.object, *p.key, p.is_sum ? usage::read_sum : usage::read, p.multiplicity, p.count, nullptr);
   }

@@ -31,8 +31,8 @@ enum class InstantPart : std::uint8_t {
   observes,   ///< first half: reads, and writes nothing that moves a robot
   commands,   ///< first half: may write commands
   switches,   ///< second half: says which motion moves a robot, before forces are found
-  forces,     ///< second half: on demand, it runs for the motions only; a reader in between sees the last step's results
-  moves,      ///< second half: carries the state to the next instant
+  forces,  ///< second half: on demand, it runs for the motions only; a reader in between sees the last step's results
+  moves,   ///< second half: carries the state to the next instant
 };
 
 /// Facts that hold for all algorithms of a kind.

@@ -12,8 +12,8 @@ inline constexpr std::uint32_t single_value = 0xffffffffu;
 enum class Role : std::uint8_t {
   state,    ///< an error when it is read and not written
   command,  ///< an error when it is read and not written, or written and not read: a command that no level uses
-  /// State of the motion rather than of the robot. It is zero, a list of it empty, while a motion that does not write it
-  /// moves the robot; all other properties stay as the previous motion has written them (Algorithm::on_handover).
+  /// State of the motion rather than of the robot. It is zero, a list of it empty, while a motion that does not write
+  /// it moves the robot; all other properties stay as the previous motion has written them (Algorithm::on_handover).
   motion_trait,
 };
 

@@ -19,8 +19,8 @@ class WorldBuilder {
   virtual TextId intern(std::string_view text) noexcept = 0;
   /// See RobotBuilder::report.
   virtual void report(Severity severity, std::string_view text, int line = 0, int column = 0) noexcept = 0;
-  /// The rule for the friction of a pair of shapes: a FrictionRule (toolkit/pair_surface.hpp). A rule of the scenario has
-  /// priority.
+  /// The rule for the friction of a pair of shapes: a FrictionRule (toolkit/pair_surface.hpp). A rule of the scenario
+  /// has priority.
   virtual void friction_rule(std::uint32_t rule) noexcept = 0;
   /// Returns the host's extension of this name, version and layout, or null. [setup]
   virtual void* find_extension(const ExtensionId& id) noexcept {

@@ -25,8 +25,8 @@ struct JointLimits {
 
 enum class JointKind : std::uint8_t { fixed, revolute, prismatic };
 
-/// One rigid body of the flattened tree with the joint that leads to it. `origin` includes fixed translations, rotations
-/// and forks. May grow at its end.
+/// One rigid body of the flattened tree with the joint that leads to it. `origin` includes fixed translations,
+/// rotations and forks. May grow at its end.
 struct Link {
   ObjectId object = no_object;  ///< holds pose, twist, inertial, shapes
   std::int32_t parent = -1;     ///< index of the parent link, always smaller than its own; -1: it is the base

@@ -28,8 +28,8 @@ enum class Severity : std::uint8_t {
 ///       ...
 ///     builder.end();
 ///
-/// Names are unique among the parts of a robot. The host collects misuse and reports it after the reader returns; no call
-/// throws. Callable while a ModelReader reads, or from set-up code.
+/// Names are unique among the parts of a robot. The host collects misuse and reports it after the reader returns; no
+/// call throws. Callable while a ModelReader reads, or from set-up code.
 class RobotBuilder {
  public:
   virtual void base(std::string_view name) noexcept = 0;

@@ -10,8 +10,8 @@
 
 namespace muro {
 
-/// A copy of the struct at `from`, of which its maker knows the first `size` bytes; the other members have their default
-/// values.
+/// A copy of the struct at `from`, of which its maker knows the first `size` bytes; the other members have their
+/// default values.
 template <class T>
 T known_part(const void* from, std::size_t size) {
   T copy{};
@@ -19,8 +19,8 @@ T known_part(const void* from, std::size_t size) {
   return copy;
 }
 
-/// A view of elements that lie `stride()` bytes apart: sizeof(T) for their maker. Minor versions of the SDK add members to
-/// a struct at its end, so a reader of an older version finds the members that it knows. A reader of a newer version
+/// A view of elements that lie `stride()` bytes apart: sizeof(T) for their maker. Minor versions of the SDK add members
+/// to a struct at its end, so a reader of an older version finds the members that it knows. A reader of a newer version
 /// takes `known(i)`; in a plugin none of its hosts is older.
 template <class T>
 class Rows {
@@ -54,7 +54,7 @@ class Rows {
       : first_(first), size_(std::uint32_t(count)), stride_(std::uint32_t(stride)) {}
   /// Elements that lie one after the other: an array, a vector, a span. They outlive the view.
   template <class Elements>
-    requires(!std::is_same_v<Elements, Rows>) && requires(const Elements& e) { static_cast<const T*>(std::data(e)); }
+  requires(!std::is_same_v<Elements, Rows>) && requires(const Elements& e) { static_cast<const T*>(std::data(e)); }
   constexpr Rows(const Elements& elements) : Rows(std::data(elements), std::size(elements)) {}
 
   constexpr std::size_t size() const { return size_; }

@@ -59,9 +59,9 @@ struct RobotColliders {
   Aabb fat_aabb;  ///< box with a margin in which the robot stays for a while; the same as in `moving`
 };
 
-/// The spatial index of the scene: a derived property of the world, valid for the instant in which its writer ran. It has
-/// two levels: scenery (built once), and robots (boxes with a margin, refitted only when a robot leaves its box). The few
-/// colliders of a robot are tested one by one.
+/// The spatial index of the scene: a derived property of the world, valid for the instant in which its writer ran. It
+/// has two levels: scenery (built once), and robots (boxes with a margin, refitted only when a robot leaves its box).
+/// The few colliders of a robot are tested one by one.
 struct SceneIndex {
   std::span<const Collider> colliders;     ///< scenery first, then robot by robot
   std::span<const RobotColliders> robots;  ///< by RobotId
@@ -75,8 +75,8 @@ struct SceneIndex {
 };
 MURO_OPAQUE_TYPE(SceneIndex, "muro.SceneIndex", transient);
 
-/// One point in which two bodies touch, from the view of the list's owner (`self`). A contact of two robots is in the lists
-/// of both, with equal point and depth and the opposite normal.
+/// One point in which two bodies touch, from the view of the list's owner (`self`). A contact of two robots is in the
+/// lists of both, with equal point and depth and the opposite normal.
 struct Contact {
   ObjectId self = no_object;
   ObjectId other = no_object;
@@ -89,9 +89,9 @@ struct Contact {
 };
 MURO_OPAQUE_TYPE(Contact, "muro.Contact", opaque);
 
-/// One point in which two bodies touch, and the wrench on the first body; the other body gets the opposite. A contact of
-/// two robots is in the lists of both, each time with the body of the list's owner first: with equal point and depth, and
-/// the opposite normal and wrench. A contact of two bodies of one robot is in its list once.
+/// One point in which two bodies touch, and the wrench on the first body; the other body gets the opposite. A contact
+/// of two robots is in the lists of both, each time with the body of the list's owner first: with equal point and
+/// depth, and the opposite normal and wrench. A contact of two bodies of one robot is in its list once.
 struct ContactWrench {
   ObjectId body = no_object;
   ObjectId other = no_object;

@@ -20,16 +20,16 @@ struct Surface {
   double spinning_resistance = 0;  ///< m: torque against turning about the normal by the normal force (torsional)
 };
 
-/// A shape of a body, for collision, rays and rendering, centred on its origin unless `size` says otherwise. May grow at
-/// its end: plugins hold it as a constant of a body, as Rows, or behind a pointer.
+/// A shape of a body, for collision, rays and rendering, centred on its origin unless `size` says otherwise. May grow
+/// at its end: plugins hold it as a constant of a body, as Rows, or behind a pointer.
 struct Shape {
   ShapeKind kind = ShapeKind::box;
   TextId mesh = no_text;     ///< mesh, heightmap: path of the file
   TextId texture = no_text;  ///< path of a picture (PNG, JPEG, ...) on its surface
   MaterialSource material_source = MaterialSource::file;
-  /// box: full lengths x, y, z. sphere: radius, -, -. cylinder: radius, -, length along z. capsule: radius, -, length of
-  /// the straight part along z. plane: unused (normal +z through the origin, solid below). mesh: scale. heightmap: full
-  /// lengths in x and y, and the height of its value 1; centred in x and y only, for scenery only, see
+  /// box: full lengths x, y, z. sphere: radius, -, -. cylinder: radius, -, length along z. capsule: radius, -, length
+  /// of the straight part along z. plane: unused (normal +z through the origin, solid below). mesh: scale. heightmap:
+  /// full lengths in x and y, and the height of its value 1; centred in x and y only, for scenery only, see
   /// toolkit/heightmap.hpp. All in m, the scale in 1.
   Vec3 size = Vec3::Zero();
   Pose origin{};  ///< of the shape in the frame of its body

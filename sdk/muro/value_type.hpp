@@ -11,13 +11,13 @@
 
 namespace muro {
 
-/// The number type that a value is made of. `opaque` values have no columns, so they are not recorded; as state they are
-/// saved and hashed byte by byte and must have no padding. `transient` values also hold addresses: a snapshot does not
-/// have them.
+/// The number type that a value is made of. `opaque` values have no columns, so they are not recorded; as state they
+/// are saved and hashed byte by byte and must have no padding. `transient` values also hold addresses: a snapshot does
+/// not have them.
 enum class Scalar : std::uint8_t { f64, f32, i64, i32, u64, u32, u8, opaque, transient };
 
-/// Identity and layout of a value type. Two libraries mean the same type when name, size and alignment agree; the size of
-/// a type that grows may differ.
+/// Identity and layout of a value type. Two libraries mean the same type when name, size and alignment agree; the size
+/// of a type that grows may differ.
 struct ValueType {
   std::string_view name;
   std::uint32_t size = 0;
@@ -96,13 +96,13 @@ MURO_SCALAR_TYPE(std::uint8_t, u8)
 
 /// Declares a struct of the SDK that may grow at its end. Properties of this type are constants; the host fills members
 /// that the maker of a value does not know with their default values.
-#define MURO_GROWING_TYPE(TYPE, NAME)            \
-  template <>                                    \
-  struct ValueTraits<TYPE> {                     \
-    static constexpr std::string_view name = NAME; \
-    static constexpr Scalar scalar = Scalar::opaque; \
+#define MURO_GROWING_TYPE(TYPE, NAME)                            \
+  template <>                                                    \
+  struct ValueTraits<TYPE> {                                     \
+    static constexpr std::string_view name = NAME;               \
+    static constexpr Scalar scalar = Scalar::opaque;             \
     static constexpr std::span<const std::string_view> labels{}; \
-    static constexpr bool grows = true;          \
+    static constexpr bool grows = true;                          \
   }
 
 /// Declares a value type without columns (see Scalar): KIND is `opaque` or `transient`.
@@ -122,8 +122,10 @@ MURO_VALUE_TYPE(Wrench, "muro.Wrench", f64, detail::wrench_labels);
 MURO_VALUE_TYPE(Inertia, "muro.Inertia", f64, detail::inertia_labels);
 
 template <class T>
-inline constexpr ValueType value_type{ValueTraits<T>::name,   sizeof(T),
-                                      alignof(T),             ValueTraits<T>::scalar,
-                                      ValueTraits<T>::labels, requires { ValueTraits<T>::grows; }};
+inline constexpr ValueType value_type{ValueTraits<T>::name, sizeof(T), alignof(T), ValueTraits<T>::scalar,
+                                      ValueTraits<T>::labels, requires {ValueTraits<T>::grows;
+}  // namespace muro
+}
+;
 
 }  // namespace muro

@@ -2,8 +2,8 @@
 // A plugin to start from: a speedometer whose needle follows the true speed with a lag.
 #include <vector>
 
-#include "muro/plugin.hpp"
 #include "muro/base/elementary.hpp"
+#include "muro/plugin.hpp"
 
 namespace {
 

@@ -35,8 +35,9 @@ TEST(PreviousMajor, IsRefusedByNameWithWhatToDo) {
   } catch (const SetupError& e) {
     said = e.what();
   }
-  EXPECT_NE(said.find("sdk_4_0/of_sdk_4_0.so was built for another muro: sdk_major is 4 in the plugin and 5 in this muro"),
-            std::string::npos)
+  EXPECT_NE(
+      said.find("sdk_4_0/of_sdk_4_0.so was built for another muro: sdk_major is 4 in the plugin and 5 in this muro"),
+      std::string::npos)
       << said;
   EXPECT_NE(said.find("sdk/CHANGELOG.md"), std::string::npos) << said;
 }

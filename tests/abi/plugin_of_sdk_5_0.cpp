@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A plugin whose SDK knows less of the structs that may grow than this host does, as SDK 5.0 will beside later minor
-// versions: each of these structs ends early. Written from the record of the layout and without the SDK. Its sensor logs
-// what it sees; its reader builds a robot with two shapes.
+// versions: each of these structs ends early. Written from the record of the layout and without the SDK. Its sensor
+// logs what it sees; its reader builds a robot with two shapes.
 #include <Eigen/Core>
 #include <cstdint>
 #include <cstdio>
@@ -243,8 +243,8 @@ class Reader final : public ReaderInstance {
 
 constexpr Parameter parameters[] = {{.name = "first", .default_number = 3}, {.name = "second", .default_number = 4}};
 constexpr PropertyUse reads[] = {{"pose", "of the base"}, {"twist", "of the base"}};
-constexpr Description description{
-    "sensor.of_sdk_5_0", 3, "1.0.0", "Counts what it sees", {parameters, 2}, {reads, 2}, {}, 0};
+constexpr Description description{"sensor.of_sdk_5_0", 3,          "1.0.0", "Counts what it sees",
+                                  {parameters, 2},     {reads, 2}, {},      0};
 constexpr std::string_view extensions[] = {".of_sdk_5_0"};
 constexpr ReaderDescription reader_description{"reader.of_sdk_5_0", "1.0.0", "Builds two shapes", extensions};
 constexpr Entry<Description, AlgorithmInstance> algorithms[] = {
@@ -267,9 +267,9 @@ constinit const sdk_5_0::PluginTable muro_plugin{
               .eigen_version = EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION,
               .eigen_max_align_bytes = 16,
               .eigen_malloc_already_aligned = 1,
-              .probe_size = 1,
-              .probe_align = 1,
-              .probe_layout = 1,
+              .probe_size = 280,
+              .probe_align = 8,
+              .probe_layout = 0x1aaa705f,
               .compiler = "by hand"},
     .table_size = 248,
     .name = "of_sdk_5_0",
@@ -278,4 +278,4 @@ constinit const sdk_5_0::PluginTable muro_plugin{
     .summary = "A plugin of SDK 5.0",
     .algorithms = sdk_5_0::algorithms,
     .readers = sdk_5_0::readers,
-    .layout = 1};
+    .layout = 0x70520132};

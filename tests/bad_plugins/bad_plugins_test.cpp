@@ -34,9 +34,9 @@ struct Difference {
 class ForeignPlugin : public testing::TestWithParam<Difference> {};
 
 TEST_P(ForeignPlugin, IsRefusedWithTheFieldOfTheStampThatDiffers) {
-  EXPECT_EQ(refusal(GetParam().plugin), "plugin " + library(GetParam().plugin) + " was built for another muro: " +
-                                            GetParam().text + "; build it again with muro_add_plugin() of this muro" +
-                                            GetParam().more);
+  EXPECT_EQ(refusal(GetParam().plugin), "plugin " + library(GetParam().plugin) +
+                                            " was built for another muro: " + GetParam().text +
+                                            "; build it again with muro_add_plugin() of this muro" + GetParam().more);
 }
 
 std::string of_number(const char* field, std::uint32_t in_plugin, std::uint32_t here) {

@@ -140,9 +140,10 @@ TEST_F(PropertyStoreTest, RolesAreComparedAndBothSidesNamed) {
   constexpr Key<double> speed_as_trait{"speed", "m/s", "how fast", Role::motion_trait};
   bind(writer, a, speed, usage::variable);
   bind(reader, a, speed_as_trait, usage::read);
-  EXPECT_NE(problems().find("property `speed`: role state and role motion_trait are declared by a.motion (motion.x) and "
-                            "b.laser (laser.y); declare the key in one place, as the vocabulary does"),
-            std::string::npos)
+  EXPECT_NE(
+      problems().find("property `speed`: role state and role motion_trait are declared by a.motion (motion.x) and "
+                      "b.laser (laser.y); declare the key in one place, as the vocabulary does"),
+      std::string::npos)
       << problems();
 }
 
@@ -151,8 +152,9 @@ TEST_F(PropertyStoreTest, TypesThatGrowAreForConstants) {
   store.set_constant(a, keys::collision_shapes, &shape, 1);
   EXPECT_EQ(problems(), "");
   store.bind(reader, a, keys::collision_shapes, usage::read, Multiplicity::array, 0, nullptr);
-  EXPECT_NE(problems().find("`a:collision.shapes` is used by b.laser (laser.y), but its type muro.Shape is for constants"),
-            std::string::npos)
+  EXPECT_NE(
+      problems().find("`a:collision.shapes` is used by b.laser (laser.y), but its type muro.Shape is for constants"),
+      std::string::npos)
       << problems();
 }
 

@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "host/scenario/builder.hpp"
-#include "muro/toolkit/link_pose.hpp"
 #include "muro/base/random.hpp"
+#include "muro/toolkit/link_pose.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/mesh/files_testing.hpp"

@@ -27,7 +27,8 @@ double varied_fraction(const AlgorithmSetup& s, const Description& d, const Comp
     if (s.use != variation.choices[v]->use || (s.subsystem != factor.subsystem && !world)) continue;
     if (factor.robots.empty()) return 1;
     const std::size_t own = std::size_t(std::count_if(s.items.begin(), s.items.end(), [&](const Item& item) {
-      return item.robot && std::binary_search(comparison.robots.begin(), comparison.robots.end(), index_of(item.robot->id));
+      return item.robot &&
+             std::binary_search(comparison.robots.begin(), comparison.robots.end(), index_of(item.robot->id));
     }));
     if (own > 0) return double(own) / double(s.items.size());
   }

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "image_pipeline.hpp"
-#include "muro/plugin.hpp"
 #include "muro/base/elementary.hpp"
-#include "muro/toolkit/mounting.hpp"
 #include "muro/base/number_text.hpp"
+#include "muro/plugin.hpp"
+#include "muro/toolkit/mounting.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/link_motion/constant_twist.hpp"
 #include "plugins/common/render/color_renderer.hpp"

@@ -27,8 +27,7 @@ class LineOfSight {
   /// counts, and each robot as one. The line runs 1 mm above its ends: what stands on a floor is in its way, the floor
   /// is not. Robots `own` and `other` (or no_robot) do not count. From `b` to `a` there are exactly as many.
   /// [step, any thread]
-  std::uint32_t obstacles(const Vec3& a, const Vec3& b, RobotId own, RobotId other,
-                          std::uint32_t most = 1) const;
+  std::uint32_t obstacles(const Vec3& a, const Vec3& b, RobotId own, RobotId other, std::uint32_t most = 1) const;
   bool is_clear(const Vec3& a, const Vec3& b, RobotId own, RobotId other) const {
     return obstacles(a, b, own, other) == 0;
   }

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "muro/object.hpp"
 #include "muro/base/elementary.hpp"
+#include "muro/object.hpp"
 
 namespace muro::render {
 
@@ -18,7 +18,7 @@ struct Camera {
   double cx = 0, cy = 0;                ///< pixels
   double near = 0.01;                   ///< m along the axis; nothing nearer is seen
   double far = 1000;                    ///< m along the axis; nothing farther is seen
-  RobotId ignored_robot = no_robot;      ///< a robot that is not seen
+  RobotId ignored_robot = no_robot;     ///< a robot that is not seen
 
   /// With square pixels and the axis in the middle. `fov`: horizontal, rad, below pi.
   static Camera of_fov(std::uint32_t width, std::uint32_t height, double fov) {

@@ -15,7 +15,7 @@ namespace muro::scene_bodies {
 struct SceneBody {
   ObjectId object = no_object;
   RobotId robot = no_robot;  ///< no_robot: scenery
-  In<Pose> link_pose{};     ///< of a robot's link; unset for scenery
+  In<Pose> link_pose{};      ///< of a robot's link; unset for scenery
   Pose scenery_pose{};
 
   const Pose& pose() const { return link_pose ? *link_pose : scenery_pose; }

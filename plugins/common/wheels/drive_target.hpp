@@ -7,8 +7,8 @@
 #include <span>
 
 #include "muro/algorithm.hpp"
-#include "muro/robot.hpp"
 #include "muro/base/number_text.hpp"
+#include "muro/robot.hpp"
 #include "muro/vocabulary.hpp"
 #include "parameters.hpp"
 

@@ -2,8 +2,8 @@
 // Motion of a frame in its own x-y plane.
 #pragma once
 
-#include "muro/geometry.hpp"
 #include "muro/base/elementary.hpp"
+#include "muro/geometry.hpp"
 #include "muro/toolkit/rotations.hpp"
 
 namespace muro::wheels {

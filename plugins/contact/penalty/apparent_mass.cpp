@@ -63,8 +63,8 @@ MassProperties mass_properties_of(const Inertia& body) {
   return properties(1 / body.mass, body.com, body.tensor().inverse());
 }
 
-ApparentMasses apparent_masses(Rows<Link> links, std::span<const Inertia> inertias,
-                               std::span<const double> positions, std::span<const std::uint32_t> bodies) {
+ApparentMasses apparent_masses(Rows<Link> links, std::span<const Inertia> inertias, std::span<const double> positions,
+                               std::span<const std::uint32_t> bodies) {
   const Tree tree(links, positions);
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(tree.columns(), tree.columns());
   for (std::size_t i = 0; i < links.size(); ++i) {

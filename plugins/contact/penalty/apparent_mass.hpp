@@ -30,7 +30,7 @@ struct ApparentMasses {
   /// most: each of them counts what they share. That is the largest eigenvalue of their part of `coupling`.
   double shared_by(std::span<const std::uint32_t> touched) const;
 };
-ApparentMasses apparent_masses(Rows<Link> links, std::span<const Inertia> inertias,
-                               std::span<const double> positions, std::span<const std::uint32_t> bodies);
+ApparentMasses apparent_masses(Rows<Link> links, std::span<const Inertia> inertias, std::span<const double> positions,
+                               std::span<const std::uint32_t> bodies);
 
 }  // namespace muro::penalty

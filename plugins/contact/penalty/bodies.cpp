@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "apparent_mass.hpp"
-#include "muro/toolkit/mass_properties.hpp"
 #include "muro/base/random.hpp"
+#include "muro/toolkit/mass_properties.hpp"
 #include "muro/vocabulary/contact.hpp"
 #include "plugins/common/text/quote.hpp"
 

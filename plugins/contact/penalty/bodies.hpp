@@ -24,14 +24,14 @@ inline constexpr std::int32_t not_dynamic = -1;
 
 /// Any object.
 struct Body {
-  const Pose* pose = nullptr;               ///< null: scenery
-  const Twist* twist = nullptr;             ///< null: scenery, which does not move
+  const Pose* pose = nullptr;                  ///< null: scenery
+  const Twist* twist = nullptr;                ///< null: scenery, which does not move
   std::int32_t robot = not_dynamic;            ///< in Bodies::robots, when forces can move it
-  std::uint32_t dynamic_body = 0;           ///< in Bodies::dynamic_bodies, the same
+  std::uint32_t dynamic_body = 0;              ///< in Bodies::dynamic_bodies, the same
   std::int32_t kinematic_robot = not_dynamic;  ///< in Bodies::kinematic_robots, of a robot that forces never move
-  std::uint32_t model = 0;                  ///< equal for all bodies of a robot
-  std::uint64_t name = 0;                   ///< hash
-  std::uint32_t first_shape = 0;            ///< in Bodies::shapes
+  std::uint32_t model = 0;                     ///< equal for all bodies of a robot
+  std::uint64_t name = 0;                      ///< hash
+  std::uint32_t first_shape = 0;               ///< in Bodies::shapes
 };
 
 /// What forces move as one rigid body: a robot, or, if its motion reads the forces on each link, one of its links.

@@ -92,8 +92,8 @@ class PairContacts {
   /// Adjacent contacts with one body.
   struct Run {
     ObjectId other;
-    std::uint32_t end;                    ///< behind the last, in the list
-    bool is_computed = false;             ///< by this robot
+    std::uint32_t end;                       ///< behind the last, in the list
+    bool is_computed = false;                ///< by this robot
     std::int32_t other_robot = not_dynamic;  ///< in Bodies::robots, if forces on it count
   };
   /// A contact that a robot computes.

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "muro/plugin.hpp"
 #include "muro/base/number_text.hpp"
+#include "muro/plugin.hpp"
 #include "muro/vocabulary/contact.hpp"
 #include "pair_contacts.hpp"
 #include "scenery_contacts.hpp"

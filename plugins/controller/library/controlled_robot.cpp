@@ -291,7 +291,9 @@ bool ControlledRobot::call(Call& call, const Step& step) {
 void ControlledRobot::report(ReportEntries& report) const {
   if (failure_count_ == 0) return;
   const std::string name = name_ + "/" + settings_.table.name;
-  const auto tell = [&](std::string_view key, std::uint64_t value) { report.set({"control_code", name, key, double(value)}); };
+  const auto tell = [&](std::string_view key, std::uint64_t value) {
+    report.set({"control_code", name, key, double(value)});
+  };
   tell("failures", failure_count_);
   tell("restarts", block_->restarts);
   tell("held", block_->is_held);

@@ -2,8 +2,8 @@
 // From the commanded velocity of a base to angles of steered and speeds of driven wheels: the inverse of
 // motion.ackermann. Every wheel stands at right angles to the line from its centre to the one point about which the
 // vehicle turns (R. Ackermann's condition).
-#include "muro/plugin.hpp"
 #include "muro/base/elementary.hpp"
+#include "muro/plugin.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/common/wheels/drive_target.hpp"
 #include "plugins/common/wheels/motion_description.hpp"

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "muro/handles.hpp"
 #include "muro/base/elementary.hpp"
+#include "muro/handles.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/wheels/gauss_collocation.hpp"
 #include "plugins/common/wheels/steering_geometry.hpp"

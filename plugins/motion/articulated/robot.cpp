@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "muro/base/random.hpp"
 #include "muro/simd/numbers.hpp"
 #include "muro/toolkit/mass_properties.hpp"
-#include "muro/base/random.hpp"
 #include "muro/vocabulary/contact.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/contact_geometry/impact_path.hpp"

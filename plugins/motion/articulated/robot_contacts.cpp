@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "muro/simd/numbers.hpp"
 #include "muro/base/random.hpp"
+#include "muro/simd/numbers.hpp"
 #include "plugins/common/contact_geometry/contact_patches.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/contact_geometry/kept_contact.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <string>
 
-#include "muro/shape.hpp"
 #include "muro/base/did_you_mean.hpp"
+#include "muro/shape.hpp"
 #include "muro/vocabulary.hpp"
 #include "plugins/common/mesh/hull_vertices.hpp"
 #include "plugins/common/text/quote.hpp"

@@ -35,8 +35,7 @@ std::vector<bool> find_moving_joints(Rows<Link> links, std::span<const Inertia> 
 
 }  // namespace
 
-CompositeBody::CompositeBody(Rows<Link> links, std::span<const Inertia> inertias,
-                             std::span<const double> start) {
+CompositeBody::CompositeBody(Rows<Link> links, std::span<const Inertia> inertias, std::span<const double> start) {
   const std::vector<bool> moves = find_moving_joints(links, inertias, start);
   std::vector<std::uint32_t> group_of(links.size());
   std::vector<Pose> in_group(links.size());

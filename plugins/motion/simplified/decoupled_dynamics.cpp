@@ -40,8 +40,7 @@ DecoupledDynamics::DecoupledDynamics(Rows<Link> links, std::span<const Inertia> 
 }
 
 /// Links into bodies.
-std::vector<MovedInertias::Body> DecoupledDynamics::join(Rows<Link> links,
-                                                         std::span<const Inertia> inertias) {
+std::vector<MovedInertias::Body> DecoupledDynamics::join(Rows<Link> links, std::span<const Inertia> inertias) {
   std::vector<MovedInertias::Body> tree(1);
   bodies_.emplace_back();
   for (std::uint32_t i = 0; i < links.size(); ++i) {

@@ -7,11 +7,11 @@
 
 #include "encoder.hpp"
 #include "gearbox.hpp"
+#include "muro/base/number_text.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/joint_drives.hpp"
 #include "muro/toolkit/joint_inertia.hpp"
 #include "muro/toolkit/mass_properties.hpp"
-#include "muro/base/number_text.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/text/quote.hpp"

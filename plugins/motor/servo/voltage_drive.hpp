@@ -6,8 +6,8 @@
 #include <string>
 
 #include "motor_parameters.hpp"
-#include "muro/toolkit/joint_drives.hpp"
 #include "muro/base/number_text.hpp"
+#include "muro/toolkit/joint_drives.hpp"
 
 namespace muro::servo {
 

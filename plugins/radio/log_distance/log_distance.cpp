@@ -6,9 +6,9 @@
 #include <set>
 
 #include "delivery.hpp"
+#include "muro/base/number_text.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mounting.hpp"
-#include "muro/base/number_text.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "parameters.hpp"
 #include "plugins/common/text/quote.hpp"

@@ -8,9 +8,9 @@
 
 #include "channel.hpp"
 #include "frame.hpp"
+#include "muro/base/random.hpp"
 #include "muro/handles.hpp"
 #include "muro/step.hpp"
-#include "muro/base/random.hpp"
 #include "plugins/common/line_of_sight/line_of_sight.hpp"
 
 namespace muro::log_distance {

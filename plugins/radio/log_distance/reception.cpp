@@ -209,8 +209,13 @@ Outcome Reception::outcome(const Heard& h, double& rssi) {
 Incoming Reception::incoming_of(const Heard& h, double rssi) const {
   const Frame& f = *h.complete->frame;
   const double distance = std::sqrt(h.squared_distance);
-  return {f.end + distance / s_->channel.speed, f.handed_over, rssi,      f.number,
-          std::int32_t(index_of(s_->radios[h.complete->radio].robot)),  f.size,        &f.payload};
+  return {f.end + distance / s_->channel.speed,
+          f.handed_over,
+          rssi,
+          f.number,
+          std::int32_t(index_of(s_->radios[h.complete->radio].robot)),
+          f.size,
+          &f.payload};
 }
 
 void Reception::count(Outcome outcome) const {

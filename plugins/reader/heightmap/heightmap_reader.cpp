@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Reads the file of a heightmap as a model of one body that does not move.
-#include "muro/vocabulary/model.hpp"
 #include "muro/plugin.hpp"
 #include "muro/vocabulary.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "plugins/common/heightmap/heightmap_file.hpp"
 
 namespace {

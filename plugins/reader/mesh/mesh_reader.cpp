@@ -2,10 +2,10 @@
 // Reads a mesh file as a model of one body.
 #include <algorithm>
 
-#include "muro/vocabulary/model.hpp"
-#include "muro/plugin.hpp"
 #include "muro/base/limits.hpp"
+#include "muro/plugin.hpp"
 #include "muro/vocabulary.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "plugins/common/mesh/hull.hpp"
 #include "plugins/common/mesh/solid.hpp"
 

@@ -5,8 +5,8 @@
 #include <cstring>
 
 #include "core/read_model.hpp"
-#include "muro/vocabulary/model.hpp"
 #include "muro/vocabulary.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "plugins/common/mesh/files_testing.hpp"
 #include "plugins/common/mesh/hull.hpp"
 #include "plugins/common/mesh/solid.hpp"

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "muro/vocabulary/model.hpp"
 #include "muro/toolkit/pair_surface.hpp"
 #include "muro/vocabulary.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "plugins/common/model_file/build_tree.hpp"
 #include "plugins/common/parser_process/builder_calls/model_constants.hpp"
 #include "plugins/common/text/quote.hpp"

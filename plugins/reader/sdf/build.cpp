@@ -4,8 +4,8 @@
 #include "bodies.hpp"
 #include "devices.hpp"
 #include "joints.hpp"
-#include "muro/vocabulary/model.hpp"
 #include "muro/vocabulary.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "plugins/common/model_file/build_tree.hpp"
 
 namespace muro::sdf {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "muro/vocabulary/model.hpp"
 #include "muro/vocabulary.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "plugins/common/model_file/inertia.hpp"
 
 namespace muro::urdf {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "document.hpp"
-#include "muro/geometry.hpp"
 #include "muro/base/limits.hpp"
+#include "muro/geometry.hpp"
 #include "plugins/common/model_file/joint_spring.hpp"
 #include "plugins/common/model_file/mesh_path.hpp"
 #include "plugins/reader/common/sdf_devices/subsystem.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "document.hpp"
-#include "muro/vocabulary/model.hpp"
 #include "muro/vocabulary.hpp"
+#include "muro/vocabulary/model.hpp"
 #include "read.hpp"
 
 namespace muro::urdf {

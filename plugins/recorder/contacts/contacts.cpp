@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <optional>
 
+#include "muro/base/did_you_mean.hpp"
 #include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
-#include "muro/base/did_you_mean.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/text/glob.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -62,8 +62,7 @@ class ContactRecorder final : public Algorithm {
         continue;  // no force moves it: what it does to others stands in their lists
       for (const Key<ContactWrench>* key : {&keys::contact_wrenches_of_motion, &keys::contact_wrenches_of_law})
         if (has(robot, *key))
-          lists_.push_back(
-              {c.read_list(robot->base(), *key), c.read(robot->base(), keys::contact_world), robot->id});
+          lists_.push_back({c.read_list(robot->base(), *key), c.read(robot->base(), keys::contact_world), robot->id});
     }
     if (lists_.empty())
       throw Error(
@@ -155,10 +154,10 @@ class ContactRecorder final : public Algorithm {
   }
 
   std::string path_;
-  std::vector<std::string> names_;      ///< of all objects
-  std::vector<bool> wanted_;            ///< likewise
-  std::vector<RobotId> robot_of_;  ///< by object
-  std::vector<RobotList> lists_;        ///< in the order of robots
+  std::vector<std::string> names_;  ///< of all objects
+  std::vector<bool> wanted_;        ///< likewise
+  std::vector<RobotId> robot_of_;   ///< by object
+  std::vector<RobotList> lists_;    ///< in the order of robots
   std::optional<CsvFile> file_;
   std::int64_t last_time_ = -1;  ///< ns, of the last run
 };

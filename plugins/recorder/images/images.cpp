@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "muro/base/whole_file.hpp"
 #include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
-#include "muro/base/whole_file.hpp"
 #include "plugins/common/image_file/png.hpp"
 
 namespace {

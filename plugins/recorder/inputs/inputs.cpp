@@ -7,9 +7,9 @@
 #include <optional>
 #include <tuple>
 
+#include "muro/base/whole_file.hpp"
 #include "muro/ext/outputs.hpp"
 #include "muro/plugin.hpp"
-#include "muro/base/whole_file.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "recording.hpp"
 

@@ -81,8 +81,7 @@ TransformedShape revolved_about(const TransformedShape& s, const Vec3& axis) {
 
 }  // namespace
 
-LinkBox swept_box(Rows<Link> links, const std::vector<bool>& follows, std::uint32_t link,
-                  const Shape& shape) {
+LinkBox swept_box(Rows<Link> links, const std::vector<bool>& follows, std::uint32_t link, const Shape& shape) {
   TransformedShape s = transformed(shape, shape.origin);
   const double max_diagonal = max_growth * diagonal_of(s);
   for (; links[link].parent >= 0 && follows[link]; link = std::uint32_t(links[link].parent)) {

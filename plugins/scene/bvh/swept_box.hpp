@@ -19,8 +19,7 @@ struct LinkBox {
 /// The box that a shape of link number `link` stays in while the joints move, in the first link on the way from the
 /// root that can have one which is hardly larger: a wheel's in its carrier, for it stays in its place however far it
 /// has rotated; an arm's in the arm. `follows[i]`: the pose of link i is exactly what its joint makes of its parent's.
-LinkBox swept_box(Rows<Link> links, const std::vector<bool>& follows, std::uint32_t link,
-                  const Shape& shape);
+LinkBox swept_box(Rows<Link> links, const std::vector<bool>& follows, std::uint32_t link, const Shape& shape);
 
 /// Merges the boxes of each link, in the order of links.
 std::vector<LinkBox> merged(std::vector<LinkBox> boxes);

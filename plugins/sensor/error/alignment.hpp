@@ -4,8 +4,8 @@
 #include <array>
 #include <span>
 
-#include "muro/geometry.hpp"
 #include "muro/base/random.hpp"
+#include "muro/geometry.hpp"
 #include "per_component.hpp"
 
 namespace muro {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "muro/base/elementary.hpp"
-#include "muro/toolkit/flicker_noise.hpp"
 #include "muro/base/random.hpp"
+#include "muro/toolkit/flicker_noise.hpp"
 #include "per_component.hpp"
 
 namespace muro {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "muro/plugin.hpp"
 #include "muro/base/bounds.hpp"
 #include "muro/base/number_text.hpp"
+#include "muro/plugin.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/sensor/common/internal_sensor/link_load.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A receiver of satellite navigation: place on the earth, and velocity.
-#include "muro/plugin.hpp"
 #include "muro/base/number_text.hpp"
+#include "muro/plugin.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/sensor/common/geodetic/geodetic.hpp"
 #include "plugins/sensor/common/geodetic/keys.hpp"

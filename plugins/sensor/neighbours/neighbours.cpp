@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "muro/plugin.hpp"
 #include "muro/base/elementary.hpp"
+#include "muro/plugin.hpp"
 #include "muro/toolkit/mounting.hpp"
 #include "plugins/common/line_of_sight/line_of_sight.hpp"
 #include "plugins/common/line_of_sight/spatial_hash.hpp"

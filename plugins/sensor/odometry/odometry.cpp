@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "motion_noise.hpp"
+#include "muro/base/number_text.hpp"
 #include "muro/plugin.hpp"
 #include "muro/toolkit/mass_properties.hpp"
-#include "muro/base/number_text.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/common/link_motion/link_motion.hpp"
 #include "plugins/common/wheels/omni_jacobian.hpp"

@@ -22,8 +22,7 @@ class BodyPoses {
   /// [setup]
   void connect_links(Connector& c) {
     for (const RobotView* robot : c.robots())
-      for (const Link& link : robot->links)
-        add(c, link.object, robot->id, link.object == robot->base());
+      for (const Link& link : robot->links) add(c, link.object, robot->id, link.object == robot->base());
     link_count_ = bodies_.size();
   }
   /// After the links, when all sensors have connected. [setup]

@@ -11,10 +11,10 @@
 #include <thread>
 
 #include "body_poses.hpp"
+#include "muro/base/elementary.hpp"
 #include "muro/ext/outputs.hpp"
 #include "muro/ext/run_control.hpp"
 #include "muro/plugin.hpp"
-#include "muro/base/elementary.hpp"
 #include "muro/vocabulary.hpp"
 #include "panels.hpp"
 #include "plugins/common/image_file/png.hpp"

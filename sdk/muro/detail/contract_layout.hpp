@@ -12,8 +12,8 @@ namespace muro::abi {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Winvalid-offsetof"
 /// Every struct that crosses the boundary, member by member, as in version N.0; classes with hidden members by their
-/// size. A struct that may grow is listed without its size, and members that later minor versions add at its end are not
-/// listed: plugins of N.0 have the same hash.
+/// size. A struct that may grow is listed without its size, and members that later minor versions add at its end are
+/// not listed: plugins of N.0 have the same hash.
 inline constexpr Place contract_places[] = {
     MURO_SIZE(Pose),
     MURO_PLACE(Pose, position),

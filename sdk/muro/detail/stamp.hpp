@@ -35,11 +35,10 @@ struct Probe {
 #pragma GCC diagnostic ignored "-Winvalid-offsetof"
 /// A hash of the places of members of these values; that of all structs is layout_of_contract().
 constexpr std::uint32_t layout_of_values() {
-  constexpr std::size_t places[] = {sizeof(Pose),        offsetof(Pose, orientation),
-                                    sizeof(Inertia),     offsetof(Inertia, ixy),
-                                    sizeof(JointLimits), offsetof(JointLimits, armature),
-                                    sizeof(KeyInfo),     offsetof(KeyInfo, type),
-                                    offsetof(KeyInfo, doc)};
+  constexpr std::size_t places[] = {
+      sizeof(Pose),           offsetof(Pose, orientation), sizeof(Inertia),
+      offsetof(Inertia, ixy), sizeof(JointLimits),         offsetof(JointLimits, armature),
+      sizeof(KeyInfo),        offsetof(KeyInfo, type),     offsetof(KeyInfo, doc)};
   std::uint32_t hash = 2166136261u;  // FNV-1a
   for (const std::size_t place : places) hash = (hash ^ std::uint32_t(place)) * 16777619u;
   return hash;

@@ -9,8 +9,8 @@
 
 namespace muro {
 
-/// The item and the library that one thread serves within a call of an algorithm. A set is a plain store, so a step does
-/// it for each item. The host clears the note before each call.
+/// The item and the library that one thread serves within a call of an algorithm. A set is a plain store, so a step
+/// does it for each item. The host clears the note before each call.
 struct CallNote {
   static constexpr std::uint32_t no_item = ~std::uint32_t(0);
 

@@ -9,10 +9,10 @@ namespace muro {
 
 /// A stream of an external client for which time waits.
 ///
-/// A client may have several streams. Time goes on only while an answer is due to the client: while one of its messages,
-/// on any stream, is not answered yet. When all messages are answered it is the client's turn: time stops at the next step
-/// of an algorithm that serves one of its streams, until the client has sent another message. Time never waits for a
-/// stream alone that has a subscription (measurements that come without single requests).
+/// A client may have several streams. Time goes on only while an answer is due to the client: while one of its
+/// messages, on any stream, is not answered yet. When all messages are answered it is the client's turn: time stops at
+/// the next step of an algorithm that serves one of its streams, until the client has sent another message. Time never
+/// waits for a stream alone that has a subscription (measurements that come without single requests).
 class LockstepStream {
  public:
   enum class Outcome : std::uint8_t {

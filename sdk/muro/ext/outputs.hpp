@@ -7,8 +7,8 @@
 
 namespace muro {
 
-/// An extension of hosts, version 1. An algorithm that writes files names them in `connect` or `connect_by_name`. A host
-/// refuses the run when two outputs are one file, or an output overwrites a file that the scenario is read from.
+/// An extension of hosts, version 1. An algorithm that writes files names them in `connect` or `connect_by_name`. A
+/// host refuses the run when two outputs are one file, or an output overwrites a file that the scenario is read from.
 class Outputs {
  public:
   /// Names the file at `path`; a relative path starts in the working directory. [setup]

@@ -17,8 +17,8 @@ class RequestDone {
   ~RequestDone() = default;
 };
 
-/// An extension of algorithms, version 1. The host calls it again and again while a run is paused, so that the algorithm
-/// that paused the run can also let it go on.
+/// An extension of algorithms, version 1. The host calls it again and again while a run is paused, so that the
+/// algorithm that paused the run can also let it go on.
 class PauseAttendant {
  public:
   virtual void attend() noexcept = 0;  ///< [between steps]
@@ -42,8 +42,8 @@ struct Placement {
 /// An extension of hosts, version 2: for algorithms, in their steps, and for pause attendants.
 ///
 /// The host carries requests out when the present instant is complete. Requests of pause attendants and of algorithms
-/// that run alone come from outside: they keep their order, and are recorded and replayed as external inputs. Requests of
-/// other algorithms follow, in an order of their own; equal requests of one instant are one. `done` may be null.
+/// that run alone come from outside: they keep their order, and are recorded and replayed as external inputs. Requests
+/// of other algorithms follow, in an order of their own; equal requests of one instant are one. `done` may be null.
 class RunControl {
  public:
   virtual bool is_paused() const noexcept = 0;

@@ -12,8 +12,8 @@ namespace muro {
 /// The inertia (kg m^2 or kg) that the joint of link `joint` and the mimic joints that follow it move, all other
 /// joints and the base held: the element of the joint-space inertia matrix on its diagonal (Featherstone, Rigid Body
 /// Dynamics Algorithms, Section 6.2). `inertias`, `positions` (rad or m): one a link. [setup]
-inline double joint_inertia(Rows<Link> links, std::span<const Inertia> inertias,
-                            std::span<const double> positions, std::size_t joint) {
+inline double joint_inertia(Rows<Link> links, std::span<const Inertia> inertias, std::span<const double> positions,
+                            std::size_t joint) {
   std::vector<Pose> in_base(links.size());
   std::vector<Vec3> linear(links.size(), Vec3::Zero()),
       angular = linear;  // at the origin of the link's frame, for q' = 1

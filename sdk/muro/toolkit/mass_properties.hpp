@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "muro/algorithm.hpp"
-#include "muro/toolkit/link_pose.hpp"
 #include "muro/base/number_text.hpp"
+#include "muro/toolkit/link_pose.hpp"
 #include "muro/vocabulary.hpp"
 
 namespace muro {

@@ -2,8 +2,8 @@
 // Rotations by vectors, by angles and between directions.
 #pragma once
 
-#include "muro/geometry.hpp"
 #include "muro/base/elementary.hpp"
+#include "muro/geometry.hpp"
 
 namespace muro {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Properties by which a reader of models hands the host what is no part of the robot: for RobotBuilder::set and set_array.
+// Properties by which a reader of models hands the host what is no part of the robot: for RobotBuilder::set and
+// set_array.
 #pragma once
 
 #include "muro/key.hpp"

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "model_constants.hpp"
-#include "muro/vocabulary/model.hpp"
 #include "muro/vocabulary.hpp"
+#include "muro/vocabulary/model.hpp"
 
 namespace muro::builder_calls {
 

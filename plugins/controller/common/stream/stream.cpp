@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "muro/algorithm.hpp"
-#include "muro/ext/report_entries.hpp"
 #include "muro/base/number_text.hpp"
+#include "muro/ext/report_entries.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/controller/common/stream/live_stream.hpp"
 #include "plugins/controller/common/stream/looked_at_stream.hpp"

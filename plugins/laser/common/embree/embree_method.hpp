@@ -64,8 +64,8 @@ class Embree final : public scanner::Method {
   std::vector<BodyShape> heightmap_shapes_;
   std::vector<Heightmap> heightmap_surfaces_;  ///< of these, in the frames of their shapes
   UserGeometry scenery_, robots_;
-  std::vector<RobotId> robot_of_;  ///< by geometry of the scene
-  std::vector<ObjectId> object_of_;     ///< likewise
+  std::vector<RobotId> robot_of_;    ///< by geometry of the scene
+  std::vector<ObjectId> object_of_;  ///< likewise
   std::vector<scanner::RaySet> sets_;
   bool is_built_ = false;
 };

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "muro/scene.hpp"
 #include "muro/base/bounds.hpp"
+#include "muro/scene.hpp"
 #include "plugins/laser/common/raycast/intersect.hpp"
 
 namespace muro::embree {

@@ -161,7 +161,8 @@ TEST(LaserEdge, GivesTheSameBitsWithEveryInstructionSet) {
       scene.add_robot({{dice.shape(0.1, 0.5), dice.pose(8)}, {dice.shape(0.1, 0.5), dice.pose(8)}});
     SceneTable table;
     table.build(scene.index());
-    const Viewpoint from{dice.pose(8), dice.between(4, 40), round % 3 == 0 ? no_robot : RobotId(std::uint32_t(round % 3 - 1)), 0.02};
+    const Viewpoint from{dice.pose(8), dice.between(4, 40),
+                         round % 3 == 0 ? no_robot : RobotId(std::uint32_t(round % 3 - 1)), 0.02};
     for (const RayPattern& pattern : patterns) {
       std::vector<double> first, ranges(pattern.size());
       std::vector<ObjectId> first_hits, hits(pattern.size());

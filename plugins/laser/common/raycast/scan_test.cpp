@@ -278,8 +278,8 @@ TEST(LaserScan, ReadsMaxRangeForNothingAndMinRangeForWhatIsTooNear) {
   const ObjectId near = scene.add_scenery(Shape::box({0.1, 1, 1}), {{0.1, 0, 0}, Quat::Identity()});
   scene.add_scenery(Shape::box({1, 1, 1}), {{-7, 0, 0}, Quat::Identity()});
   RayCaster caster;
-  const Scan s =
-      scan(caster, scene.index(), {{}, 5.6, no_robot}, 0.2, RayPattern(Grid{.min_angle = 0, .max_angle = pi, .columns = 3}));
+  const Scan s = scan(caster, scene.index(), {{}, 5.6, no_robot}, 0.2,
+                      RayPattern(Grid{.min_angle = 0, .max_angle = pi, .columns = 3}));
   EXPECT_EQ(s.ranges, (std::vector<double>{0.2, 5.6, 5.6}));
   EXPECT_EQ(s.hits, (std::vector<ObjectId>{near, no_object, no_object}));
 }

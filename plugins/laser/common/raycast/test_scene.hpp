@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "muro/scene.hpp"
 #include "muro/base/bounds.hpp"
+#include "muro/scene.hpp"
 
 namespace muro::raycast::test {
 

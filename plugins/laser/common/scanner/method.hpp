@@ -9,10 +9,10 @@ namespace muro::scanner {
 
 /// From where a scanner looks, and how far.
 struct Viewpoint {
-  Pose device;                      ///< in the world
-  double max_range = 0;             ///< m
+  Pose device;                       ///< in the world
+  double max_range = 0;              ///< m
   RobotId ignored_robot = no_robot;  ///< a robot that is not seen
-  double min_range = 0;             ///< m, the reading of what is nearer
+  double min_range = 0;              ///< m, the reading of what is nearer
 };
 
 class Method {

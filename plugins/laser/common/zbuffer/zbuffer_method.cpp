@@ -137,7 +137,8 @@ void ZBuffer::draw(const DepthImage& image, const scanner::Viewpoint& from, bool
 
 ObjectId ZBuffer::containing_object(const scanner::Viewpoint& from) const {
   for (const render::SolidShape& solid : scene_.solid_shapes())
-    if ((solid.body.robot == no_robot || solid.body.robot != from.ignored_robot) && solid.contains(from.device.position))
+    if ((solid.body.robot == no_robot || solid.body.robot != from.ignored_robot) &&
+        solid.contains(from.device.position))
       return solid.body.object;
   return no_object;
 }

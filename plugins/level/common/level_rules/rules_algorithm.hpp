@@ -52,7 +52,7 @@ class RulesAlgorithm : public Algorithm {
     Out<std::int32_t> choice;  ///< -1: no rule holds, and others may choose
     ListIn<Contact> contacts;
     Out<std::int64_t> switch_time, contact_time;
-    Out<std::int32_t> known_level;       ///< in the last run; -1: none yet
+    Out<std::int32_t> known_level;  ///< in the last run; -1: none yet
     std::vector<RobotId> robot_of;  ///< by object, for rules by contact
     RobotId id = no_robot;
   };

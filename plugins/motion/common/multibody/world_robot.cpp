@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "joint_drive_target.hpp"
-#include "muro/toolkit/mass_properties.hpp"
 #include "muro/base/number_text.hpp"
+#include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/motion/common/position_drive/joint_target.hpp"

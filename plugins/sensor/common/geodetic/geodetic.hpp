@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "muro/geometry.hpp"
 #include "muro/base/elementary.hpp"
+#include "muro/geometry.hpp"
 
 namespace muro::geodetic {
 
