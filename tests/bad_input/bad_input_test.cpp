@@ -143,7 +143,7 @@ TEST(FailedRun, StillWritesItsReportAndItsRecords) {
 /// Files given as plugins or control code that are neither: the message names the file and what is wrong with it.
 struct Broken {
   const char* arguments;
-  const char* expected;  ///< begin of the message; the loader writes the rest
+  const char* expected;  ///< beginning of the message; the loader writes the rest
 };
 
 class BrokenLibrary : public ::testing::TestWithParam<Broken> {};
