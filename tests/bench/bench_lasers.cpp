@@ -167,8 +167,7 @@ class BareViews {
   double pixels_ = 0;
 };
 
-/// Returns a grid with a tenth of the columns and rows, over the same angles. supersampling_of_few() gives it as many
-/// pixels.
+/// Returns a grid over the same angles with a tenth of columns and rows; supersampling_of_few(): for as many pixels.
 Grid few_of(const Grid& g) {
   const auto fewer = [](int n) { return n > 1 ? std::max(2, 1 + (n - 1) / 10) : 1; };
   return {fewer(g.columns), fewer(g.rows), g.horizontal_fov, g.vertical_fov};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cost of radio.log_distance: point robots broadcast at 10 Hz, each with a given number of others in range. The result
-// is a fraction of one core.
+// Cost of radio.log_distance in parts of one core: robots broadcast at 10 Hz, each with a number of others in range.
 //   --robots N       1000 by default
 //   --neighbours K   average number of robots in range of each, 20 by default
 //   --case N         only this row, from 0

@@ -13,8 +13,7 @@
 namespace muro::host {
 namespace {
 
-/// A ball of 0.1 m flies without gravity at 1 m/s between walls 0.6 m and -0.6 m away, and comes back at the same
-/// speed.
+/// A ball of 0.1 m that flies without gravity at 1 m/s between walls 0.6 m and -0.6 m away, and bounces without loss.
 constexpr const char* billiard = R"(
 duration: 3
 world:

@@ -34,8 +34,7 @@ struct EveryCollisionOfMeshes : ::testing::TestWithParam<std::string> {
       }
     return folder.file("floor.obj", out.str());
   }
-  /// Returns a channel along x, open above: 2 m long, bottom at height 0 for y -0.5 to 0.5, walls 0.5 m thick, 1 m
-  /// high.
+  /// Returns a channel along x, open above, 2 m long: bottom at height 0, y -0.5 to 0.5; walls 0.5 m thick, 1 m high.
   std::string channel_file() const {
     const double profile[8][2] = {{-1, -0.5}, {1, -0.5}, {1, 1}, {0.5, 1}, {0.5, 0}, {-0.5, 0}, {-0.5, 1}, {-1, 1}};
     std::ostringstream out;
