@@ -68,7 +68,7 @@ class OneScanner {
     }
     scene_.run_for(0.2);  // warm
   }
-  /// Returns the time of a scan (us), with all that it needs beside poses of bodies.
+  /// Returns the time of a scan (us), with all that it needs except poses of bodies.
   double turn() {
     const double start = now();
     double spent = seconds();

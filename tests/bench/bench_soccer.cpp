@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The two scenes of examples/soccer: teams of humanoids that see and walk by motion.biped, beside the figure of the
-// MuRoSimF group, and 22 humanoids moved by forces at 1000 Hz. Fails if a robot falls or does not move its joints, or
-// if the ball is not kicked.
+// The two scenes of examples/soccer: teams of humanoids that see and walk by motion.biped, compared with the figure of
+// the MuRoSimF group, and 22 humanoids moved by forces at 1000 Hz. Fails if a robot falls or does not move its joints,
+// or if the ball is not kicked.
 //   --rounds N     measurements of each row, of which the best counts, 5 by default
 //   --cameras no   leaves the first scene out, which takes minutes without a GPU
 #include <fmt/format.h>

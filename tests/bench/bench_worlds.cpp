@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cost that muro adds to an engine: scenes that one world of motion.bullet, motion.ode or motion.mujoco moves, beside
-// raw programs of these engines with the same scene, commands, rate and iterations, alternately in one run.
+// Cost that muro adds to an engine: scenes that one world of motion.bullet, motion.ode or motion.mujoco moves, compared
+// with raw programs of these engines with the same scene, commands, rate and iterations, alternately in one run.
 //   --vehicles N   only this number of vehicles
 #include <fmt/format.h>
 

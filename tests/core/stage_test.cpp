@@ -131,7 +131,7 @@ TEST_F(Stages, AStageIsDisabledWhenAllOfItsCallsAre) {
   every(add({{IndexSpace::whole}, maybe, maybe}), 0, true);
   every(add({{IndexSpace::robots, Scope::own_robot}}), 0, true);
   const auto all = stages();
-  ASSERT_EQ(all.size(), 3u);  // the last phase of the first task shares a stage with the second task
+  ASSERT_EQ(all.size(), 3u);  // the last phase of the first task and the second task share call chains
   EXPECT_TRUE(all[0].is_enabled());
   EXPECT_FALSE(all[1].is_enabled());
   EXPECT_TRUE(all[2].is_enabled());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The same input and seed give the same bits: the urban team at several levels and with noisy sensors.
+// Equal input and seed give equal bits: the urban team at several levels and with noisy sensors.
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Several worlds in one process, one after the other and at once, do not influence each other.
+// Several worlds in one process, one after the other and at the same time, do not influence each other.
 #include <gtest/gtest.h>
 
 #include <filesystem>

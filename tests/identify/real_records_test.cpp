@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The twelve records of an XL-330 (Rhoban/bam), if they are beside the repository.
+// The twelve records of an XL-330 (Rhoban/bam), if they are next to the repository.
 #include <gtest/gtest.h>
 
 #include <algorithm>

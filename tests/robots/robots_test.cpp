@@ -37,7 +37,7 @@ class EveryRobot : public ::testing::TestWithParam<std::string> {
     double speed = 0;
     for (const JointObservation& j : seen.joints) {
       if (std::count(expectation_.without_effort.begin(), expectation_.without_effort.end(), j.name) > 0) {
-        if (v.name != "simplified") {  // its drives have no effort limits by default
+        if (v.name != "simplified") {  // drives of motion.simplified have no effort limits by default
           EXPECT_GT(std::abs(j.moved), 0.5) << j.name << ", whose drive has no effort";
         }
         continue;

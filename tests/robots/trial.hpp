@@ -33,7 +33,7 @@ struct Observations {
   std::string refused;         ///< why the robot was refused; all else is 0 then
   std::string failure;         ///< why the run ended early, or what was not finite
   double norm_error = 0;       ///< largest | |orientation| - 1 |
-  double limit_violation = 0;  ///< rad or m, largest distance of a joint from its limits outside of them
+  double limit_violation = 0;  ///< rad or m, largest distance of a joint beyond its limits
   std::string violating_joint;
   double mimic_error = 0;       ///< rad or m, largest error of a mimic joint relative to its leader, at the end
   double lowest = 0;            ///< m, lowest point of all collision shapes at the end; infinite without shapes

@@ -36,9 +36,8 @@ struct RoverBody {
   Inertia wheel_inertia;
 };
 
-/// Returns a rover with wheels of radius 0.06 m and 0.3 kg at x = +-0.12, y = +-0.15 m under a chassis of 4 kg. It
-/// stands on z = 0 with its base at 0.09 m. Joints: "front_left_joint", "front_right_joint", "rear_left_joint",
-/// "rear_right_joint".
+/// Returns a rover on z = 0 with its base at 0.09 m, a chassis of 4 kg, wheels of radius 0.06 m and 0.3 kg at x =
+/// +-0.12, y = +-0.15 m, joints "front_left_joint", "front_right_joint", "rear_left_joint", "rear_right_joint".
 RobotTree rover(const RoverBody& body, double friction);
 
 }  // namespace muro::test

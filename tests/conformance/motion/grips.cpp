@@ -33,7 +33,7 @@ RobotTree gripper() {
 
 struct Grip : Trial {
   const RobotView* part = nullptr;
-  /// Puts the middle of the part `off` (m, along the pads) beside that of the pads.
+  /// Puts the middle of the part `off` (m, along the pads) away from that of the pads.
   Grip(const std::string& motion, double mass, double off) : Trial(motion) {
     add("gripper", gripper(), {{0, 0, 1}, Quat::Identity()});
     std::map<std::string, ParameterInput> parameters{{"base", std::string("fixed")}};

@@ -8,7 +8,7 @@ namespace muro::sensor_conformance {
 
 inline constexpr double g = 9.81;  ///< m/s^2
 
-/// How a motion moves robots.
+/// Way in which a motion moves robots.
 enum class Family : std::uint8_t {
   point,    ///< as its commands say
   wheeled,  ///< as its wheels turn
