@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sensors that ask their host for extensions: the one that it has, and others of its name.
+// Sensors that ask their host for extensions: for one that the host has, and for others of the same name.
 #include "muro/ext/inspection.hpp"
 #include "muro/plugin.hpp"
 
@@ -7,7 +7,7 @@ namespace {
 
 using namespace muro;
 
-/// LiveProperty with one more member, as an SDK might have it whose author did not think of the version.
+/// LiveProperty with one more member: the struct of an SDK whose author forgot to change the version.
 struct LongerProperty : LiveProperty {
   double unit_factor = 1;
 };
@@ -22,7 +22,7 @@ class LongerInspection : public Inspection {
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Winvalid-offsetof"
-/// As Inspection::id() of an SDK with this interface and this struct.
+/// Returns what Inspection::id() returns in an SDK with this interface and this struct.
 template <class Interface, class Property>
 ExtensionId inspection_with() {
   static constexpr abi::Place structs[] = {MURO_SIZE(Property),

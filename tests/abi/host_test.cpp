@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a host meets plugins of another minor version, and plugins that ask for extensions.
+// Behaviour of a host with plugins of another minor version, and with plugins that ask for extensions.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -11,7 +11,7 @@
 namespace muro {
 namespace {
 
-/// The lines that one robot with the algorithm logs in a second at 100 Hz, and at its end.
+/// Returns the lines that one robot with the algorithm logs during a second at 100 Hz and at its end.
 std::vector<std::string> log_of(const std::string& folder, const std::string& algorithm) {
   Registry registry({folder});
   Simulation s(registry);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What crosses the boundary is the same in all minor versions of a major one: it stands in layout_of_major_N.txt, a
-// line for each struct, member and virtual function.
+// The layout that crosses the boundary is the same in all minor versions of a major one. layout_of_major_N.txt records
+// it, with one line for each struct, member and virtual function.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ void add_function(const char* name, Function function, Lines& out) {
 }
 #define FUNCTION(CLASS, NAME) add_function(#CLASS "::" #NAME, &CLASS::NAME, out)
 
-/// Names the protected functions of interfaces.
+/// Gives access to protected functions of interfaces.
 struct OpenConnector : Connector {
   static void add_to(Lines& out) {
     add_function("Connector::bind", &OpenConnector::bind, out);
@@ -128,7 +128,7 @@ void add_extension(const ExtensionId& id, Lines& out) {
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Winvalid-offsetof"
-/// The head of a table, which hosts compare themselves, and the C interface of control code.
+/// Adds the head of a plugin's table, which hosts compare before anything else, and the C interface of control code.
 void add_tables(Lines& out) {
   using namespace abi;
   add_places(
@@ -244,7 +244,7 @@ TEST(Contract, IsTheOneOnRecordForItsMajorVersion) {
         << "new: " << line << "\nA new function at the end needs a new sdk_minor and its line in tests/abi/" << name;
 }
 
-/// Stands for a value of any type in braces.
+/// Converts to a value of any type within braces.
 struct Any {
   template <class T>
   operator T() const;
@@ -257,7 +257,7 @@ constexpr std::size_t members() {
     return sizeof...(Values);
 }
 
-/// How many members of a struct are in the list.
+/// Returns the number of members of a struct that are in the list.
 std::size_t listed(const std::string& name) {
   return std::size_t(std::count_if(std::begin(abi::contract_places), std::end(abi::contract_places),
                                    [&](const abi::Place& p) { return p.name.starts_with(name + "."); }));
@@ -310,7 +310,7 @@ TEST(Contract, HasEveryMemberOfItsStructsOnTheList) {
     EXPECT_EQ(listed(c.name), c.members) << c.name;
 }
 
-/// How many virtual functions an interface has.
+/// Returns the number of virtual functions of an interface.
 template <class Interface>
 std::size_t functions() {
   return abi::virtual_place(&abi::OneMore<Interface>::one_more) / sizeof(void*);

@@ -22,7 +22,7 @@ std::vector<std::string> variants() {
 
 class MixedBuilds : public testing::TestWithParam<std::string> {
  protected:
-  /// A robot with three red shapes, 2 m from the axis.
+  /// Adds a robot with three red shapes, 2 m from the axis.
   const RobotView& add_robot(Simulation& simulation, const std::string& name) {
     const RobotTree tree = test::tree_of([](RobotBuilder& b) {
       b.base("base");
@@ -36,7 +36,7 @@ class MixedBuilds : public testing::TestWithParam<std::string> {
     simulation.use("motion.orbit_" + variant, 100, {{&robot, robot.base()}},
                    {{"rate", 0.5}, {"who", std::string("world")}});
   }
-  /// After 3 s at 0.5 rad/s: the circle's closed form.
+  /// Compares the pose after 3 s at 0.5 rad/s with the closed form of the circle.
   void expect_orbit(Simulation& simulation, const RobotView& robot) {
     const Pose& pose = simulation.world().value(robot.base(), keys::pose);
     EXPECT_NEAR(pose.position.x(), 2 * std::cos(1.5), 1e-12);

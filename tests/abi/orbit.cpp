@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Moves a base on a circle about the world's z axis, by way of everything whose layout the border between host and
-// plugin depends on: fixed and dynamic Eigen values on the heap, shapes, spans, texts, parameters. CMake compiles it
-// with one set of flags after another. VARIANT: from CMake, e.g. avx2.
+// Moves a base on a circle about the world's z axis. It uses everything whose layout matters at the border between host
+// and plugin: fixed and dynamic Eigen values on the heap, shapes, spans, texts, parameters. CMake compiles it once for
+// each set of flags. VARIANT: from CMake, e.g. avx2.
 #include <vector>
 
 #include "muro/plugin.hpp"

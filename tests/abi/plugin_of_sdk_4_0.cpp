@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A plugin as SDK 4.0 made it, written from the record of its layout and without the SDK. Hosts of all later minor
-// versions load it. Its sensor logs what it sees.
+// A plugin as SDK 4.0 built it, written without the SDK from the record of its layout. Hosts of all later minor
+// versions load it. Its sensor logs what it reads.
 #include <Eigen/Core>
 #include <cstdint>
 #include <cstdio>

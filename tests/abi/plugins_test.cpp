@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every plugin of the build owes to those who load it and to those who read about it.
+// Requirements on every plugin of the build: on its library, and on its documentation.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace {
 struct Built {
   const char* name;
   const char* library;
-  const char* folder;  ///< of its sources
+  const char* folder;  ///< folder of its sources
 
   friend void PrintTo(const Built& plugin, std::ostream* out) { *out << plugin.name; }
 };
@@ -29,7 +29,7 @@ constexpr Built built[] = {
 #include "plugins.inc"  // a line for each, from CMake
 };
 
-/// What a command prints, line by line.
+/// Returns the lines that a command prints.
 std::vector<std::string> lines_of(const std::string& command) {
   std::vector<std::string> lines;
   FILE* pipe = popen(command.c_str(), "r");
@@ -48,14 +48,14 @@ std::string content(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The table of a plugin, loaded for the rest of the program.
+/// Returns the table of a plugin, which stays loaded until the program ends.
 const abi::PluginTable& table_of(const Built& plugin) {
   void* library = dlopen(plugin.library, RTLD_NOW | RTLD_LOCAL);
   if (!library) throw std::runtime_error(dlerror());
   return *static_cast<const abi::PluginTable*>(dlsym(library, abi::table_symbol));
 }
 
-/// The first word of an id that fits a kind.
+/// First words of an id that fit each kind.
 const std::map<Kind, std::set<std::string>> families{{Kind::motion, {"motion"}},
                                                      {Kind::kinematics, {"kinematics"}},
                                                      {Kind::scene, {"scene"}},
@@ -153,7 +153,7 @@ TEST_P(Plugin, ExplainsEveryParameterAndKeepsItsDefaultsWithinTheRange) {
     }
 }
 
-/// The page of a folder, and pages that it leads to: what plugins share is told once.
+/// Returns the page of a folder and the pages that it links to. Text that plugins share is written only once.
 std::string pages_of(const std::string& folder) {
   std::string pages = content(folder + "/README.md");
   const std::regex link(R"(\]\(([^)]*README\.md)\))");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Wrong scenarios, as a user would hand them to the program: each has its exact message beside it in
-// scenarios/NAME.expected (FILE stands for the scenario's path, MOTIONS for what plugins offer), exit code 2, and no
+// Wrong scenarios, as a user would give them to the program. Each has its exact message in scenarios/NAME.expected
+// (FILE is the scenario's path, MOTIONS the list of motions that plugins offer). The exit code is 2, and there is no
 // other output.
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
     text.replace(at, from.size(), to);
 }
 
-/// "motion.ackermann, motion.bullet, ...": those that this build has.
+/// Returns the motions of this build: "motion.ackermann, motion.bullet, ...".
 std::string motions() {
   std::istringstream offers(run_command(muro_program + " plugins list").output);
   std::string all;
@@ -98,7 +98,7 @@ TEST(WrongCommandLine, ACommandThatDoesNotExistNamesThoseThatDo) {
   EXPECT_EQ(result.exit_code, 2);
 }
 
-/// A ball whose motion ends with an error, or with a pose that is no number, while a recorder runs.
+/// Run of a ball with a recorder, whose motion ends with an error, or with a pose that is not a number.
 struct FailedRun {
   test::ScratchFolder scratch;
   std::string report = scratch.path("report.json"), record = scratch.path("record.csv");
@@ -140,10 +140,10 @@ TEST(FailedRun, StillWritesItsReportAndItsRecords) {
   EXPECT_NE(test::text_of(run.record), "");
 }
 
-/// Plugins and control code that are no such thing: the message names the file and what is wrong with it.
+/// Files given as plugins or control code that are neither: the message names the file and what is wrong with it.
 struct Broken {
   const char* arguments;
-  const char* expected;  ///< how the message begins; the rest is the loader's
+  const char* expected;  ///< beginning of the message; the loader writes the rest
 };
 
 class BrokenLibrary : public ::testing::TestWithParam<Broken> {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Collision meshes that cannot be read, as a user would hand them to the program: one message with the scenario's line,
-// the body, the file, the cause and what to do, and exit code 2, whoever of the algorithms reads them.
+// Collision meshes that cannot be read, as a user would give them to the program. The exit code is 2 and there is one
+// message, with the scenario's line, the body, the file, the cause and what to do, whichever algorithm reads the mesh.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ bool is_there(const std::string& plugin) {
   return all.find("\n" + plugin + " ") != all.npos;
 }
 
-/// Binary glTF of 22 bytes that says that it is 2 GB long.
+/// Returns binary glTF of 22 bytes whose header gives a length of 2 GB.
 std::string glb_of_two_gigabytes() {
   std::string bytes = "glTF";
   for (const std::uint32_t word : {2u, 0x7fffffffu, 0x7ffffff0u, 0x4e4f534au})
@@ -33,7 +33,7 @@ std::string collision_of_meshes() {
   return "";
 }
 
-/// A rock that is a mesh, and balls and algorithms that touch and see it, each by another engine.
+/// Returns a scenario with a rock that is a mesh. Balls touch it and sensors see it, each with another engine.
 std::string scenario_of(const std::string& file) {
   std::string text = "world: {objects: {rock: {shape: {mesh: " + file + "}}}}\nrobots:\n";
   const std::string laser = is_there("laser.embree") ? ", lidar: {use: laser.embree, rate: 10}" : "",
@@ -45,14 +45,14 @@ std::string scenario_of(const std::string& file) {
   return text + collision_of_meshes();
 }
 
-/// A robot of one link, whose `element` is a mesh.
+/// Returns a robot of one link whose `element` is a mesh.
 std::string urdf_with(const std::string& element, const std::string& mesh) {
   return "<robot name='r'><link name='base'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' "
          "ixz='0' iyz='0'/></inertial><" +
          element + "><geometry><mesh filename='" + mesh + "'/></geometry></" + element + "></link></robot>";
 }
 
-/// The only line that `check` and `run` print, both with exit code 2, without the folder's path.
+/// Returns the only line that `check` and `run` print, without the folder's path. Both must exit with code 2.
 std::string complaint_about(const test::ScratchFolder& folder, const std::string& scenario,
                             const std::string& environment = "") {
   const std::string path = folder.file("s.yaml", scenario);
@@ -131,7 +131,7 @@ TEST(ACollisionMesh, OfARobotThatIsNotThereIsLeftOut) {
                                "; correct its path"});
 }
 
-/// Comparing each with each would take minutes.
+/// A comparison of each triangle with each other one would take minutes.
 TEST(ACollisionMesh, OfManyTrianglesAtOnePlaceIsDrawnInTime) {
   if (!is_there("laser.zbuffer")) return;
   const test::ScratchFolder folder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the program writes, and that it writes nothing else: names that lead to the same file, links, pipes, full disks.
+// The program writes its outputs and nothing else, also with two names of one file, links, pipes and full disks.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using test::run_command;
 using test::text_of;
 
-/// A folder with the scenario of a ball, in which commands run. Messages say FOLDER for it.
+/// A folder with the scenario of a ball. Commands run in this folder, and messages name it FOLDER.
 struct Ball {
   test::ScratchFolder folder;
   explicit Ball(const std::string& algorithms = "{}") {

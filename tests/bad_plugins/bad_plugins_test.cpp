@@ -11,7 +11,7 @@ namespace {
 
 const std::string folder = BAD_PLUGIN_DIR "/";
 
-/// What loading "motion.NAME" from the folder NAME says; "" when it is loaded.
+/// Loads "motion.NAME" from the folder NAME. Returns the error, or "" when it is loaded.
 std::string refusal(const std::string& name) {
   Registry registry({folder + name});
   try {
@@ -22,7 +22,7 @@ std::string refusal(const std::string& name) {
   return "";
 }
 
-/// The path of the library NAME, as messages write it.
+/// Path of the library NAME, as messages write it.
 std::string library(const std::string& name) { return folder + name + "/" + name + ".so"; }
 
 struct Difference {
@@ -131,7 +131,7 @@ TEST(BadPlugin, ThatIsNotTheOneItsDescriptionDescribesIsRefused) {
                 "both are new");
 }
 
-/// What looking for "motion.twice" says; the library that offers it, when there is no error.
+/// Looks for "motion.twice". Returns the error, or the library that offers it.
 std::string who_offers_twice(const std::vector<std::string>& folders,
                              const std::map<std::string, PluginChoice>& choices = {}) {
   try {
@@ -182,7 +182,7 @@ TEST(BadPlugin, WithAnUnreadableDescriptionIsAProblemAndStopsNoOther) {
   EXPECT_EQ(registry.find("motion.step_throws").plugin, "throws");
 }
 
-/// What a run of one robot with the algorithm says.
+/// Returns the error of a run of one robot with the algorithm.
 std::string failure(const std::string& algorithm) {
   Registry registry({folder + "throws"});
   Simulation simulation(registry);

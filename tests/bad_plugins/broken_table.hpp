@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A plugin that would do, for tests that break one thing of its table. PLUGIN_NAME: from CMake, e.g. wrong_magic.
+// A valid plugin for tests that break one part of its table. PLUGIN_NAME: from CMake, e.g. wrong_magic.
 #pragma once
 
 #include "muro/plugin.hpp"
@@ -22,7 +22,7 @@ class Still final : public muro::Algorithm {
 
 constexpr muro::abi::AlgorithmEntry algorithms[] = {muro::algorithm<Still>(description)};
 
-/// The table, after `change` did its worst.
+/// Returns the table with the fault that `change` makes.
 template <class Change>
 constexpr muro::abi::PluginTable table(Change change) {
   muro::abi::PluginTable t = muro::plugin_table({.name = PLUGIN_NAME,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Uses what only a later SDK has.
+// Needs a feature that only a later SDK has.
 #include "broken_table.hpp"
 
 BROKEN_PLUGIN(table.stamp.sdk_minor += 1)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Motions that touch more than they have declared, each in one way, and one that does not.
+// Motions that access more than they have declared, each in another way, and one correct motion.
 #include <vector>
 
 #include "muro/plugin.hpp"
@@ -29,7 +29,7 @@ class Honest : public Algorithm {
   std::vector<Out<Pose>> poses_;
 };
 
-/// Follows the first robot, which lies in another block than the last ones.
+/// Follows the first robot, which is in another block than the last robots.
 class ReadsAnother : public Honest {
  public:
   void step(const Step& step, Range range) override {
@@ -38,7 +38,7 @@ class ReadsAnother : public Honest {
   }
 };
 
-/// Says that it reads others, but writes one.
+/// Declares that it reads other robots, but writes one.
 class WritesAnother final : public Honest {
  public:
   std::span<const Phase> phases() const override { return wide; }
@@ -48,7 +48,7 @@ class WritesAnother final : public Honest {
   }
 };
 
-/// Keeps what it should keep in a property.
+/// Keeps state in a member that should be a property.
 class KeepsState final : public Honest {
  public:
   void step(const Step& step, Range range) override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Algorithms that touch what they have not declared are found by the access check, each by what it does.
+// The access check finds algorithms that access what they have not declared, and reports what each does.
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
@@ -8,7 +8,7 @@
 namespace muro {
 namespace {
 
-/// Runs 20 robots under the access check; what it says.
+/// Runs 20 robots under the access check and returns its message.
 std::string verdict(const std::string& motion) {
   Registry registry({BAD_PLUGIN_DIR "/secretive"});
   Simulation s(registry);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Algorithms that fail, one at each place where an algorithm can fail.
+// Algorithms that fail, one for each place where an algorithm can fail.
 #include <new>
 
 #include "muro/plugin.hpp"
@@ -25,7 +25,7 @@ class Create final : public Base {
 };
 class Connect final : public Base {
  public:
-  void connect(Connector&) override { throw 42; }  // no std::exception
+  void connect(Connector&) override { throw 42; }  // not a std::exception
 };
 class Start final : public Base {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Nothing wrong in the source: CMake compiles it with what makes it unusable, or spoils its description.
+// The source is correct: CMake compiles it with flags that make it unusable, or damages its description.
 #include "broken_table.hpp"
 
 BROKEN_PLUGIN(static_cast<void>(table))

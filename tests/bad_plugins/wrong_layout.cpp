@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A struct of its SDK that crosses the boundary was changed, in a way that the stamp does not see.
+// Its SDK has another layout of a struct that crosses the boundary; the stamp does not show the difference.
 #include "broken_table.hpp"
 
 BROKEN_PLUGIN(table.layout ^= 1)

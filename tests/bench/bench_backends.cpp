@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every motion against the cases of known answers (tests/conformance/motion): backend x case x error.
+// Errors of every motion in the cases of known answers (tests/conformance/motion): backend x case x error.
 //   --docs FOLDER   also writes the table to FOLDER/backends.md
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ using namespace muro;
 using namespace muro::bench;
 using conformance::Bound, conformance::Case, conformance::Outcome;
 
-/// Motions that at least one case applies to.
+/// Returns the motions that at least one case applies to.
 std::vector<std::string> columns() {
   std::vector<std::string> all;
   for (const std::string& id : conformance::motions())
@@ -25,7 +25,7 @@ std::vector<std::string> columns() {
   return all;
 }
 
-/// The error in few digits, with what it is allowed where it is not the bound of the case; "" where it does not apply.
+/// Returns the error in few digits, marked where its bound is not that of the case; "" where the case does not apply.
 std::string cell(const std::string& motion, const Case& c) {
   if (!conformance::why_left_out(motion, c).empty()) return "";
   try {
@@ -39,7 +39,7 @@ std::string cell(const std::string& motion, const Case& c) {
   }
 }
 
-/// From which speed on a ball passes through walls.
+/// Returns the rows of the speeds from which a ball passes through walls.
 std::vector<std::vector<std::string>> tunnelling_rows(std::vector<std::string> motions) {
   motions.emplace_back("motion.point");
   const auto text = [](double speed) { return std::isfinite(speed) ? fmt::format("{:.0f}", speed) : "never"; };
@@ -69,7 +69,7 @@ std::string table(const std::vector<std::string>& header, const std::vector<std:
   return out;
 }
 
-/// `tunnelling`: see tunnelling_rows().
+/// Returns the text of the page. `tunnelling`: see tunnelling_rows().
 std::string page(const std::vector<std::string>& motions, const std::vector<std::vector<std::string>>& rows,
                  const std::vector<std::vector<std::string>>& tunnelling) {
   std::string out =

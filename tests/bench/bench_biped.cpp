@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How many humanoids motion.biped walks in real time on one thread: robots of 21 joints, 100 steps of the motion a
-// second, each robot at a phase of its walk of its own. Targets are set between steps, outside of what is measured.
-//   --robots N     so many, 1000 by default
+// Measures how many humanoids motion.biped walks in real time on one thread: robots of 21 joints, 100 steps of the
+// motion a second, each robot at another phase of its walk. Targets are set between steps, outside of the measured
+// time.
+//   --robots N     number of robots, 1000 by default
 //   --seconds S    simulated in each round, 2 by default
 #include <fmt/format.h>
 
@@ -42,7 +43,7 @@ class Humanoids : public test::Scene {
         targets_.push_back(&world().value(std::string(r->name) + "/" + joint, keys::joint_position_target));
     walk(2);
   }
-  /// Walks for so long (simulated s); returns what its steps have taken (s).
+  /// Walks for `seconds` of simulated time; returns the time that the steps have taken (s).
   double walk(double seconds) {
     double taken = 0;
     for (long k = 0; k < std::lround(seconds * rate); ++k) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What vehicles cost that touch each other, beside the same vehicles spread out on the same plane: motion.simplified
-// with collision.native and contact.penalty, on one thread, taking turns in one run.
-//   --vehicles N   so many, 300 by default
+// Cost of vehicles that touch each other, compared with the same vehicles spread out on the same plane:
+// motion.simplified with collision.native and contact.penalty, on one thread, alternately in one run.
+//   --vehicles N   number of vehicles, 300 by default
 #include <fmt/format.h>
 
 #include <chrono>
@@ -24,7 +24,7 @@ double wall_clock() {
 /// Vehicles at rest on a grid.
 class Vehicles : public test::Scene {
  public:
-  /// `apart_x`, `apart_y`: m, from middle to middle. With `turned` each has a heading of its own.
+  /// `apart_x`, `apart_y`: m, from middle to middle. With `turned` each vehicle has another heading.
   Vehicles(int count, double apart_x, double apart_y, bool turned) {
     add_ground(0.8);
     const RobotTree rover = read_model(rover_urdf);
@@ -41,15 +41,15 @@ class Vehicles : public test::Scene {
     use_contacts();
     set_threads(1);
     build();
-    run_for(3);  // those that overlap at first push each other away
+    run_for(3);  // vehicles that overlap at first push each other away
   }
-  /// us a vehicle and step.
+  /// Returns the time of a step of one vehicle, us.
   double round() {
     const double start = wall_clock();
     run_for(0.1);
     return 1e6 * (wall_clock() - start) / (100 * double(world().robots().size()));
   }
-  /// Those that touch another.
+  /// Returns the number of vehicles that touch another one.
   int touching() {
     int count = 0;
     for (const RobotView* r : world().robots()) {

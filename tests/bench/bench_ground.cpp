@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays over ground: laser.raycast's method over a heightmap of 513 x 513 nodes, and Embree over the same triangles, by
-// each of its calls, as triangles and as its grid geometry. They take turns in one run.
+// Rays over ground: the method of laser.raycast over a heightmap of 513 x 513 nodes, and Embree over the same
+// triangles, with each of its calls, as triangles and as its grid geometry. All run alternately in one process.
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ using scanner::Viewpoint;
 constexpr std::uint32_t nodes = 513;
 constexpr int turns = 15;
 
-/// s: of this thread, so that other programs do not count.
+/// Returns the processor time of this thread (s), so that other programs do not count.
 double now() {
   timespec t;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -125,7 +125,7 @@ struct Case {
   double range;
 };
 
-/// 1.5 m above the ground, a little tilted.
+/// Returns viewpoints 1.5 m above the ground, a little tilted.
 std::vector<Viewpoint> viewpoints(const Heightmap& map, double range) {
   std::mt19937 dice(1);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(dice); };

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Steps of humanoids with 21 servos: motions of muro beside raw MuJoCo and Bullet with the same masses, servos, rotors
-// and shapes, all at 1000 Hz, taking turns in one run; and rovers beside articulated ODE. Fails where a humanoid falls,
-// sinks, or does not follow its servos. MURO_ISA=avx2 or base in the environment asks for lesser vectors.
-//   --robots N        this number alone
-//   --motions A,B     motions of muro; the first is compared with the others. Those that are not built are left out
-//   --peers_up_to N   other engines and motions but the first for no more robots (50)
-//   --rovers no       humanoids alone
+// Steps of humanoids with 21 servos: motions of muro, and raw MuJoCo and Bullet with the same masses, servos, rotors
+// and shapes, all at 1000 Hz, alternately in one run; and rovers beside articulated ODE. Fails if a humanoid falls,
+// sinks, or does not follow its servos. MURO_ISA=avx2 or base in the environment selects narrower vectors.
+//   --robots N        only this number of robots
+//   --motions A,B     motions of muro; the first is compared with the others. Motions that are not built are left out
+//   --peers_up_to N   other engines, and motions but the first, have no more robots than this (50)
+//   --rovers no       only humanoids
 #include <fmt/format.h>
 
 #include <chrono>
@@ -27,9 +27,9 @@ using namespace muro::bench;
 constexpr int bus_period = 8;  ///< ms, in which servos get new targets
 constexpr int settling = 400;  ///< ms, before times are taken
 constexpr int rounds = 15;
-/// s: each engine's turn takes so long at least, so that what other engines have left in caches is a small part of it.
+/// s: shortest turn of an engine. It is so long that what other engines have left in caches is a small part of it.
 constexpr double least_turn = 5e-3;
-constexpr double most_sunk = 0.03;   ///< m, of a trunk from where its legs should have it
+constexpr double most_sunk = 0.03;   ///< m, of a trunk below the height that its legs give it
 constexpr double most_behind = 0.3;  ///< rad, of a knee from its target
 constexpr const char* mujoco = "MuJoCo";
 constexpr const char* bullet = "Bullet";
@@ -52,8 +52,8 @@ class Run {
         hinges_(scene.hinges()),
         humanoids_(mover.make(scene)) {}
 
-  /// For some periods of the servos' bus, and more until `least` (s) are over; ns a robot and step, of the engine
-  /// alone.
+  /// Runs for some periods of the servos' bus, and for more until `least` (s) are over. Returns ns a robot and step, of
+  /// the engine alone.
   double run(int periods, double least = 0) {
     double wall = 0;
     int done = 0;
@@ -71,7 +71,7 @@ class Run {
   }
   double low() const { return low_; }  ///< m, of trunks, since the robots have settled
   double high() const { return high_; }
-  /// What is wrong with the robots; empty: nothing.
+  /// Returns the fault of the robots, or "" if there is none.
   const std::string& failure() const { return failure_; }
 
  private:
@@ -102,8 +102,8 @@ class Run {
   std::string failure_;
 };
 
-/// The quickest use of MuJoCo with one world for all, or a world for each: solver, dense or sparse. Worlds of many are
-/// tried with fewer, as time and memory of the others grow with the cube and the square of their robots.
+/// Returns the fastest use of MuJoCo with one world for all or a world for each: solver, dense or sparse. Large worlds
+/// are tried with fewer, as time and memory of the others grow with the cube and the square of their robots.
 Mover best_mujoco(const HumanoidScene& scene, Exercise exercise, bool world_each) {
   const bool large = scene.robots() > 20 && !world_each;
   Mover best;
@@ -138,7 +138,7 @@ std::vector<Mover> peers(const HumanoidScene& scene, Exercise exercise) {
   return all;
 }
 
-/// At least so many times as fast as MuJoCo and Bullet, for one robot and for more.
+/// Least ratios of the speed of muro to that of MuJoCo and Bullet, for one robot and for more.
 struct Bars {
   int one_mujoco, one_bullet, mujoco, bullet;
 };
@@ -234,7 +234,7 @@ bool is_built(const std::string& motion) {
   return std::any_of(all.begin(), all.end(), [&](const CatalogEntry& e) { return e.id == motion; });
 }
 
-/// Rovers in the city, whose wheels are balls, beside articulated ODE.
+/// Compares rovers in the city, whose wheels are balls, with articulated ODE.
 void compare_rovers(Report& report, const std::string& motion) {
   std::vector<Engine> engines;
   engines.push_back({motion + ", 1 thread", false, [&](const City& city, SolverSettings) {
@@ -259,7 +259,7 @@ void compare_rovers(Report& report, const std::string& motion) {
   }
 }
 
-/// The exit code.
+/// Returns the exit code.
 int run_benchmark(int argc, char** argv) {
   Report report("humanoids", "Humanoids: muro and other engines", argc, argv);
   std::vector<std::string> motions;

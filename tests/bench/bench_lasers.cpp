@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Methods of laser scanners beside each other: rays and pictures, what the z-buffer costs beside OpenGL used directly,
-// and from how many rays on it is worth it.
+// Compares methods of laser scanners: rays and pictures, the cost of the z-buffer and of OpenGL used directly, and the
+// number of rays from which the z-buffer is worth it.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -24,7 +24,7 @@ constexpr int turns = 5;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// A grid of rays about straight ahead.
+/// A grid of rays, symmetric about straight ahead.
 struct Grid {
   int columns, rows;
   double horizontal_fov, vertical_fov;  ///< rad
@@ -40,8 +40,8 @@ struct Grid {
   }
 };
 
-/// One scanner in the city, on the first vehicle. Nothing moves, so that all methods see the same; they look where
-/// everything is all the same, each time.
+/// One scanner in the city, on the first vehicle. Nothing moves, so that all methods see the same. Each scan still
+/// checks where everything is.
 class OneScanner {
  public:
   OneScanner(const City& city, const Grid& grid, const std::string& method, double supersampling = 1) : scene_(city) {
@@ -68,7 +68,7 @@ class OneScanner {
     }
     scene_.run_for(0.2);  // warm
   }
-  /// us, of a scan, with what it needs beside poses of bodies.
+  /// Returns the time of a scan (us), with all that it needs except poses of bodies.
   double turn() {
     const double start = now();
     double spent = seconds();
@@ -100,7 +100,7 @@ class OneScanner {
   std::vector<TaskId> tasks_;
 };
 
-/// The visible bodies of the city, as a program of its own would keep them.
+/// Returns the visible bodies of the city, in the form in which a separate program would keep them.
 BareDepth::Instances visible_bodies(const City& city, const Pose& camera_pose, const render::Frustum& frustum) {
   BareDepth::Instances found;
   const auto add = [&](std::vector<BareDepth::Transform>& list, const Pose& pose, const Vec3& scale, double radius) {
@@ -131,7 +131,7 @@ BareDepth::Instances visible_bodies(const City& city, const Pose& camera_pose, c
   return found;
 }
 
-/// The views that laser.zbuffer draws for a grid, drawn by OpenGL directly: us.
+/// Draws the views that laser.zbuffer draws for a grid, by OpenGL directly, and measures the time (us).
 class BareViews {
  public:
   BareViews(const City& city, const Grid& grid) : rig_(zbuffer::CameraRig::of(scanner::RaySet::of(grid.scanner()), 1)) {
@@ -167,7 +167,7 @@ class BareViews {
   double pixels_ = 0;
 };
 
-/// A grid with a tenth of the rays, each way, over the same angles; with so much supersampling it has as many pixels.
+/// Returns a grid over the same angles with a tenth of columns and rows; supersampling_of_few(): for as many pixels.
 Grid few_of(const Grid& g) {
   const auto fewer = [](int n) { return n > 1 ? std::max(2, 1 + (n - 1) / 10) : 1; };
   return {fewer(g.columns), fewer(g.rows), g.horizontal_fov, g.vertical_fov};
@@ -179,7 +179,7 @@ double supersampling_of_few(const Grid& g) {
   return pitch(few_of(g)) / pitch(g);
 }
 
-/// Medians of several turns, in which all take part: us a scan.
+/// Medians of several turns, in which all methods take part: us a scan.
 struct Times {
   double rays, picture, drawn, embree, bare;
   double pixels;

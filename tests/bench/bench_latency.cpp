@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How long a value takes from a property to software outside and a command back: over TCP, a Unix socket and shared
-// memory, each beside two threads that hand on a byte, or a turn, by the same means without a simulator.
+// Time that a value takes from a property to software outside and a command back: over TCP, a Unix socket and shared
+// memory. Each is compared with two threads that pass on a byte, or a turn, in the same way without a simulator.
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
@@ -39,7 +39,7 @@ void send_at_once(int family, int s) {
   if (family == AF_INET) setsockopt(s, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
 }
 
-/// A connected socket of the given family; `port` of TCP, `path` of Unix.
+/// Returns a connected socket of the given family; `port` for TCP, `path` for Unix.
 int connected(int family, std::uint16_t port, const std::string& path) {
   const int s = family == AF_INET ? test::connected_to_tcp(port) : test::connected_to_unix(path);
   if (s < 0) throw SetupError("no connection to the benchmark's own server");
@@ -47,7 +47,7 @@ int connected(int family, std::uint16_t port, const std::string& path) {
   return s;
 }
 
-/// Sends a line and reads the answer, `turns` times: us each.
+/// Sends a line and reads the answer, `turns` times. Returns the time of each, us.
 std::vector<double> round_trips(int s, const std::string& line) {
   std::vector<double> all;
   std::array<char, 4096> buffer{};
@@ -72,7 +72,7 @@ struct Ball : test::Scene {
   Ball() { use("motion.point", 1000, all_robots()); }
 };
 
-/// In lockstep: the client asks for the state and gives a velocity in turn; half of the turns is a step of 1 ms.
+/// Runs in lockstep: the client asks for the state and gives a velocity in turn; half of the turns are a step of 1 ms.
 std::vector<double> through_simulation(int family) {
   const std::string path =
       (std::filesystem::temp_directory_path() / ("muro-latency-" + std::to_string(getpid()))).string();
@@ -97,7 +97,7 @@ std::vector<double> through_simulation(int family) {
   return all;
 }
 
-/// A thread that sends back what it gets.
+/// Measures a thread that sends back what it gets.
 std::vector<double> between_threads(int family) {
   const std::string path =
       (std::filesystem::temp_directory_path() / ("muro-latency-" + std::to_string(getpid()))).string();
@@ -120,7 +120,7 @@ std::vector<double> between_threads(int family) {
   return all;
 }
 
-/// Two threads that hand on a turn in memory, and look for it before they sleep.
+/// Measures two threads that pass on a turn in memory, and poll for it before they sleep.
 std::vector<double> turns_between_threads() {
   Turn turn;
   std::atomic<bool> is_over = false;
@@ -146,7 +146,7 @@ std::vector<double> turns_between_threads() {
   return all;
 }
 
-/// Instants of 1 ms in which control code reads a pose and writes a velocity, in a process of its own or in this one.
+/// Measures instants of 1 ms in which control code reads a pose and writes a velocity, in its own process or in this.
 std::vector<double> library_calls(const std::string& isolate) {
   Ball s;
   s.set_log([](LogLevel, std::string_view) {});

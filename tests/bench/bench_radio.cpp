@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What radio.log_distance costs: point robots that broadcast at 10 Hz, so many in range of each, in parts of one core.
+// Cost of radio.log_distance in parts of one core: robots broadcast at 10 Hz, each with a number of others in range.
 //   --robots N       1000 by default
-//   --neighbours K   in range of each on average, 20 by default
-//   --case N         this row alone, from 0
+//   --neighbours K   average number of robots in range of each, 20 by default
+//   --case N         only this row, from 0
 //   --rounds N       20 by default
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ using namespace muro::bench;
 constexpr double range = 31.2;      // m, of a radio with the default parameters
 constexpr int broadcast_rate = 10;  // Hz
 
-/// s, of this thread.
+/// Returns the processor time of this thread, s.
 double processor_time() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -32,8 +32,8 @@ double processor_time() {
 
 using Settings = std::map<std::string, ParameterInput>;
 
-/// Balls of 0.1 m at random places of a square with walls, each with a radio. They move at up to 1 m/s, unless they
-/// rest, and all send at the same instants: that is how control code of one rate does it.
+/// Balls of 0.1 m at random places of a square with walls, each with a radio. They move at up to 1 m/s, or rest. All
+/// send at the same instants, as control code of one rate does.
 class Crowd : public test::Scene {
  public:
   Crowd(int robots, double neighbours, bool moving, const Settings* settings) : Scene(3), has_radios_(settings) {
@@ -68,7 +68,7 @@ class Crowd : public test::Scene {
       for (const ObjectId o : objects_) world().value(o, keys::radio_send_size) = 32;
     round();
   }
-  /// s of the processor a simulated second, over half a second.
+  /// Simulates half a second; returns the processor time (s) of a simulated second.
   double round() {
     constexpr int broadcasts = 5;
     double spent = 0;

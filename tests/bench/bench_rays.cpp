@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rays per second: a scanner on every vehicle of the city, in muro (laser.raycast with scene.bvh), Embree and Bullet.
-// All see the same scene, update included, and take turns in one run.
-//   --pattern 682x1   this pattern alone
+// All scan the same scene, update included, and run alternately in one process.
+//   --pattern 682x1   only this pattern
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct Case {
   double rays() const { return double(pattern.size()) * vehicles; }
 };
 
-/// What an engine sees and how fast.
+/// Ranges and speed of an engine.
 class Runner {
  public:
   Runner(const RayEngine& engine, const City& city, const Case& c)
@@ -60,7 +60,7 @@ class Runner {
     std::sort(sorted.begin(), sorted.end());
     return sorted[sorted.size() / 2];
   }
-  /// Of the first scan.
+  /// Returns the mean range of the first scan.
   double mean_range() const {
     double sum = 0;
     for (const float r : first_) sum += double(r);
@@ -70,7 +70,7 @@ class Runner {
     return double(std::count_if(first_.begin(), first_.end(), [&](float r) { return r < float(case_.range); })) /
            case_.rays();
   }
-  /// Fraction of rays whose range differs by more than 5 mm.
+  /// Returns the fraction of rays whose range differs by more than 5 mm.
   double differs_from(const Runner& other) const {
     int n = 0;
     for (std::size_t i = 0; i < first_.size(); ++i) n += std::abs(first_[i] - other.first_[i]) > 5e-3f;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the scheduler and the property store cost by themselves: algorithms that do nothing, and reading a property of
-// every robot beside reading it from a plain array of structs.
+// Cost of the scheduler and of the property store alone: of algorithms that do nothing, and of reading a property of
+// every robot, compared with a plain array of structs.
 #include <chrono>
 
 #include "tests/bench/muro_team.hpp"
@@ -59,14 +59,14 @@ void empty_algorithms(Report& report) {
       }
 }
 
-/// What a program without properties would have.
+/// State of a robot in a program without properties.
 struct PlainRobot {
   Pose pose;
   Twist twist;
   double wheel_positions[4] = {}, wheel_velocities[4] = {};
 };
 
-/// Kept from the optimiser.
+/// Hides a value from the optimiser.
 void use(const Vec3& value) { asm volatile("" : : "r"(&value) : "memory"); }
 
 void property_access(Report& report) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The two scenes of examples/soccer: teams of humanoids that walk by motion.biped and see, beside the figure that the
-// MuRoSimF group gave, and 22 humanoids moved by forces at 1000 Hz. Fails where a robot falls, does not move its
-// joints, or the ball is not kicked.
-//   --rounds N     measurements of each row, the best of which counts, 5 by default
+// The two scenes of examples/soccer: teams of humanoids that see and walk by motion.biped, compared with the figure of
+// the MuRoSimF group, and 22 humanoids moved by forces at 1000 Hz. Fails if a robot falls or does not move its joints,
+// or if the ball is not kicked.
+//   --rounds N     measurements of each row, of which the best counts, 5 by default
 //   --cameras no   leaves the first scene out, which takes minutes without a GPU
 #include <fmt/format.h>
 
@@ -40,7 +40,7 @@ class Game {
         if (!is_ball(*r) && link.joint != JointKind::fixed) joints_.push_back({link.joint_object, 1e9, -1e9});
   }
 
-  /// Simulates so long (s); returns the wall-clock time that it took (s).
+  /// Simulates `seconds`; returns the wall-clock time that this took (s).
   double run(double seconds) {
     const double start = wall_clock();
     simulation().run_for(seconds);
@@ -50,7 +50,7 @@ class Game {
   }
 
   std::size_t humanoids() const { return world().robots().size() - 1; }
-  /// rad: the mean over the humanoids of the farthest that one of its joints has moved.
+  /// Returns the mean over the humanoids of the largest motion of one of their joints, rad.
   double moved() const {
     double sum = 0, most = 0;
     const std::size_t of_each = joints_.size() / humanoids();
@@ -64,7 +64,7 @@ class Game {
   double highest() const { return highest_; }    ///< m
   double steepest() const { return steepest_; }  ///< cosine of the largest tilt
   double ball() const { return world().value("ball/body", keys::pose).position.head<2>().norm(); }
-  /// m: mean distance of humanoids from where they began.
+  /// Returns the mean distance of humanoids from their starts, m.
   double way() const {
     double sum = 0;
     for (const RobotView* r : world().robots())
@@ -72,7 +72,7 @@ class Game {
         sum += (pose(*r).position - world().value(r->base(), keys::initial_pose).position).head<2>().norm();
     return sum / double(humanoids());
   }
-  /// ms per simulated second, by algorithm, in all runs so far.
+  /// Returns ms per simulated second, by algorithm, in all runs so far.
   std::map<std::string, double> costs(double simulated) const {
     std::map<std::string, double> all;
     for (std::size_t i = 0; i < built_.simulation->instances().size(); ++i) {
@@ -121,7 +121,7 @@ class SoccerBench {
  public:
   SoccerBench(Report& report, int rounds) : report_(report), rounds_(rounds) {}
 
-  /// Twenty that walk and see.
+  /// Measures twenty humanoids that walk and see.
   void cameras() {
     report_.table("Humanoids of 21 joints that walk by motion.biped, each with a camera of 320 x 240 at 20 Hz",
                   {"who", "humanoids", "cameras", "threads", "times real time", "humanoids in real time", "images/s",
@@ -141,7 +141,7 @@ class SoccerBench {
         "OpenGL (Section 4); without a GPU muro's are drawn by the processor.");
   }
 
-  /// Eleven a side.
+  /// Measures eleven humanoids a side.
   void game() {
     report_.table("22 humanoids of two teams and a ball by motion.articulated, 1000 Hz, all shapes collide, 2 s",
                   {"threads", "times real time", "slowest round", "us a humanoid and ms", "trunks, m",

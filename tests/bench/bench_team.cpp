@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How many vehicles in real time? The measurements of the MuRoSimF paper, Section 5.2 and Table 2: a team in a city
-// with collision and dynamics at 1000 Hz, without and with laser scanners at 10 Hz; the paper's figures beside ours.
-// Then the example examples/urban as it is, with its control code, at each level of motion.
+// Number of vehicles in real time: the measurements of the MuRoSimF paper, Section 5.2 and Table 2. They have a team in
+// a city with collision and dynamics at 1000 Hz, without and with laser scanners at 10 Hz; the paper's figures are
+// beside ours. Then follows the example examples/urban as it is, with its control code, at each level of motion.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,14 +19,14 @@ using namespace muro::bench;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// A team at 1000 Hz whose scanners, if any, scan every 100 ms by themselves or in `scanners`.
+/// A team at 1000 Hz. Its scanners, if any, scan every 100 ms, on their own or in `scanners`.
 struct Contender {
   std::unique_ptr<Team> team;
   std::unique_ptr<Scanners> scanners;
 };
 using Make = std::function<Contender(const City&)>;
 
-/// Simulated s per s of wall-clock time.
+/// Returns simulated s per s of wall-clock time.
 double real_time_factor(int vehicles, const Make& make) {
   const City city(vehicles);
   const Contender c = make(city);
@@ -47,8 +47,8 @@ double real_time_factor(int vehicles, const Make& make) {
   return factors[factors.size() / 2];
 }
 
-/// The number of vehicles that take as long as their simulated time: found by trying the number that the last try
-/// lets expect.
+/// Returns the number of vehicles that take as long as their simulated time. Each try has the number of vehicles that
+/// follows from the last one.
 double vehicles_in_real_time(const Make& make) {
   double vehicles = 300;
   for (int attempt = 0; attempt < 3; ++attempt)
@@ -62,7 +62,7 @@ Make muro_with(int threads, const Pattern* lasers, const std::string& method = "
   };
 }
 
-/// The fastest of the others: vehicles as one body, and rays in packets.
+/// Returns the fastest of the other engines: vehicles as one body, and rays in packets.
 Make baselines_with(const Pattern* lasers) {
   const std::vector<Engine> engines = baselines();
   const auto body = std::find_if(engines.begin(), engines.end(),
@@ -76,7 +76,7 @@ Make baselines_with(const Pattern* lasers) {
   };
 }
 
-/// What the paper gives for its computers A (1.67 GHz, two cores; with scanners on one) and B (1.86 GHz).
+/// Figures of the paper for its computers A (1.67 GHz, two cores; with scanners on one) and B (1.86 GHz).
 struct PaperRow {
   int columns, rows;
   const char *rays_a, *rays_b, *z_buffer_a, *z_buffer_b;
@@ -119,10 +119,10 @@ void table_2(Report& report) {
 
 struct UrbanRun {
   double factor = 0;    ///< simulated s per wall-clock s
-  double distance = 0;  ///< m that a vehicle travels on average: they really drive
+  double distance = 0;  ///< m that a vehicle travels on average: shows that vehicles do drive
 };
 
-/// Without lasers nothing can steer, so the vehicles are told once where to drive.
+/// Runs examples/urban. Without lasers nothing can steer, so each vehicle gets one command at the start.
 UrbanRun run_urban(const std::string& motion, int vehicles, bool laser) {
   std::vector<std::string> overrides = {"robots.rovers.count=" + std::to_string(vehicles),
                                         "robots.rovers.motion.use=" + motion};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What a vehicle costs on a heightmap, beside the same vehicle on a plane: motion.simplified with collision.native and
-// contact.penalty, on one thread, taking turns in one run.
-//   --vehicles N   so many, 300 by default
-//   --ground NAME  those alone whose names contain it
+// Cost of a vehicle on a heightmap, compared with the same vehicle on a plane: motion.simplified with collision.native
+// and contact.penalty, on one thread, alternately in one run.
+//   --vehicles N   number of vehicles, 300 by default
+//   --ground NAME  only grounds whose names contain NAME
 #include <fmt/format.h>
 
 #include <chrono>
@@ -28,7 +28,7 @@ double wall_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Hills with slopes of up to 20 degrees and 15 m from top to top, with bumps of up to `bumps` m.
+/// Hills with slopes of up to 20 degrees, 15 m from top to top, with bumps of up to `bumps` m.
 struct Hills {
   std::vector<float> values;
   Heightmap map;
@@ -52,7 +52,7 @@ struct Hills {
   }
 };
 
-/// Vehicles on one ground, each with wheel speeds of its own.
+/// Vehicles on one ground, each with other wheel speeds.
 class Vehicles : public test::Scene {
  public:
   /// `hills`: null for a plane.
@@ -92,13 +92,13 @@ class Vehicles : public test::Scene {
     }
     run_for(0.5);
   }
-  /// ns a vehicle and step.
+  /// Returns the time of a step of one vehicle, ns.
   double round() {
     const double start = wall_clock();
     run_for(0.01);
     return 1e9 * (wall_clock() - start) / (10 * double(world().robots().size()));
   }
-  /// m, of the vehicles' bases.
+  /// Returns the mean height of the vehicles' bases, m.
   double mean_height() {
     double sum = 0;
     for (const RobotView* r : world().robots()) sum += pose(*r).position.z() / double(world().robots().size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Steps of vehicles per second: muro beside raw Bullet, ODE and MuJoCo programs that drive the same vehicles through
-// the same city by the same wheel commands, on one thread each (muro also on two), taking turns in one run.
-//   --vehicles N   this number alone
+// Steps of vehicles per second: muro, and raw Bullet, ODE and MuJoCo programs that drive the same vehicles through the
+// same city by the same wheel commands, on one thread each (muro also on two), alternately in one run.
+//   --vehicles N   only this number of vehicles
 //   --only TEXT    engines whose name contains TEXT; tables of muro alone with `muro` and without this option
 #include <fmt/format.h>
 
@@ -29,13 +29,13 @@ Engine muro_with(int threads) {
             return std::make_unique<MuroTeam>(city, threads, Wheels::balls, nullptr, rate_of(e));
           }};
 }
-/// The others have balls as wheels.
+/// Returns muro with cylinders as wheels; the other engines have balls.
 Engine muro_with_cylinders() {
   return {"muro, wheels as cylinders", true, [](const City& city, SolverSettings e) {
             return std::make_unique<MuroTeam>(city, 1, Wheels::cylinders, nullptr, rate_of(e));
           }};
 }
-/// To tell what the machine has to give.
+/// Returns two independent teams, which show how much two threads of this machine can do.
 Engine two_programs() {
   return {.name = "muro, two programs of 1 thread",
           .one_body = true,
@@ -46,8 +46,8 @@ Engine two_programs() {
 const char* level(const Engine& e) { return e.one_body ? "one body" : "five bodies"; }
 bool is_muro(const Engine& e) { return e.name.starts_with("muro"); }
 
-/// How well engines solve their equations. Returns the names of baselines with one body a vehicle that do so as well as
-/// muro, or better.
+/// Compares how well engines solve their equations. Returns the names of baselines with one body a vehicle that are as
+/// accurate as muro, or more.
 std::set<std::string> compare_accuracy(Report& report, const std::vector<Engine>& engines) {
   std::set<std::string> accurate;
   report.table(
@@ -102,7 +102,7 @@ void compare_with_baselines(Report& report, const std::vector<int>& teams, const
   }
 }
 
-/// muro alone: what a vehicle costs in teams of all sizes, on one thread and on two.
+/// Measures muro alone: the cost of a vehicle in teams of all sizes, on one thread and on two.
 void compare_sizes(Report& report, const std::vector<int>& teams) {
   constexpr int repeats = 5;
   report.table(fmt::format("muro alone, 4 s at 1000 Hz; of {} runs, the fastest of each round", repeats),
@@ -123,7 +123,7 @@ void compare_sizes(Report& report, const std::vector<int>& teams) {
   }
 }
 
-/// The same streets, as full, for few and for many.
+/// Measures small and large teams in cities that are equally full.
 void compare_growth(Report& report) {
   report.table("muro alone, 1 thread, 4 s at 1000 Hz, 5.4 to 6 m of streets for each vehicle",
                {"vehicles", "vehicle-steps/s", "ns a vehicle and step", "the same on open ground"});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What muro adds to an engine: scenes that one world of motion.bullet, motion.ode or motion.mujoco moves, beside raw
-// programs of these engines with the same scene, commands, rate and iterations, taking turns in one run.
-//   --vehicles N   this number alone
+// Cost that muro adds to an engine: scenes that one world of motion.bullet, motion.ode or motion.mujoco moves, compared
+// with raw programs of these engines with the same scene, commands, rate and iterations, alternately in one run.
+//   --vehicles N   only this number of vehicles
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using namespace muro::bench;
 
 using Parameters = std::map<std::string, ParameterInput>;
 
-/// The motion set as the raw program sets its engine (tests/bench/baselines).
+/// Returns the parameters with which a motion equals the raw program of its engine (tests/bench/baselines).
 Parameters parameters_of(const std::string& motion, SolverSettings e) {
   const std::int64_t iterations = e.iterations;
   if (motion == "motion.mujoco")
@@ -54,7 +54,7 @@ bool is_offered(const std::string& motion) {
   return false;
 }
 
-/// Raw programs are set as fast as vehicles still drive properly; motion.ode unless told otherwise iterates more.
+/// Adds raw ODE with the default iterations of motion.ode, as raw programs have only as many as driving needs.
 void add_default_of_ode(std::vector<Engine>& raw) {
   const auto last = std::find_if(raw.rbegin(), raw.rend(), [](const Engine& e) { return e.name.starts_with("ODE"); });
   if (last == raw.rend()) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Algorithms that do nothing, for the measurement of what running one costs.
+// Algorithms that do nothing, to measure the cost of a call.
 #include "muro/plugin.hpp"
 
 namespace {

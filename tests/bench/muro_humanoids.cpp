@@ -25,10 +25,10 @@ std::vector<T> constants_of(const RobotTree& tree, std::int32_t component, const
   return {};
 }
 
-/// What fixed joints hold together is one body.
+/// Returns the bodies of the model; links on fixed joints are part of one body.
 std::vector<HumanoidBody> bodies_of(const RobotTree& tree) {
   std::vector<HumanoidBody> bodies;
-  std::vector<std::pair<int, Pose>> places;  // of each link: its body, and where it is in its frame
+  std::vector<std::pair<int, Pose>> places;  // of each link: its body, and its pose in the body's frame
   for (const RobotTree::FlatLink& l : tree.links()) {
     const std::string& name = tree.components()[std::size_t(l.body)].name;
     if (l.link.joint == JointKind::prismatic) throw std::runtime_error("a joint of the humanoid slides");

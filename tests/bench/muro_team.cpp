@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* rover_urdf = MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf";
 
-/// The rover's model without <dynamics>, in a file of its own.
+/// Writes the rover's model without <dynamics> into a file of its own; returns the path.
 std::string rover_without_joint_dynamics() {
   std::stringstream text;
   text << std::ifstream(rover_urdf).rdbuf();
@@ -128,7 +128,7 @@ void TwoTeams::serve() {
 }
 
 MuroScanners::MuroScanners(const City& city, const Pattern& pattern, double range, int threads) : scene_(city) {
-  scene_.use("motion.point", 10, scene_.all_robots());  // without commands: it stays where it is put
+  scene_.use("motion.point", 10, scene_.all_robots());  // without commands: each stays where it is put
   scene_.use_kinematics();
   scene_.use("scene.bvh", 0);
   sensors_ = scene_.add_lasers(pattern, range, true);

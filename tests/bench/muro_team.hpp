@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// muro as the benchmarks use it, beside the engines that it is compared with.
+// The teams and scanners of muro that benchmarks compare with other engines.
 #pragma once
 
 #include <atomic>
@@ -11,34 +11,34 @@
 
 namespace muro::bench {
 
-/// The shape of wheels where they touch: cylinders as in the model, or balls, as in all baselines.
+/// Collision shape of wheels: cylinders as in the model, or balls, as in all baselines.
 enum class Wheels { cylinders, balls };
 
-/// The city as scenery, its vehicles as robots "0", "1", ... of examples/models/rover.urdf. Motion is the caller's.
+/// The city as scenery, its vehicles as robots "0", "1", ... of examples/models/rover.urdf. The caller adds the motion.
 struct CityScene : test::Scene {
-  /// `joint_dynamics`: whether joints have the damping and friction of the model (<dynamics>), which baselines leave
+  /// `joint_dynamics`: whether joints have the damping and friction of the model (<dynamics>). Baselines leave them
   /// out.
   explicit CityScene(const City& city, Wheels wheels = Wheels::cylinders, bool joint_dynamics = true);
-  /// A scanner at 10 Hz on every vehicle; returns the objects of the scanners.
+  /// Adds a scanner at 10 Hz to every vehicle; returns the objects of the scanners.
   std::vector<ObjectId> add_lasers(const Pattern& pattern, double range, bool see_self,
                                    const std::string& method = "laser.raycast");
 };
 
-/// What moves the vehicles, at one rate.
+/// The motion that moves the vehicles, at one rate.
 struct MotionSetup {
   std::string motion = "motion.simplified";
   int rate = 1000;  ///< steps/s
   std::map<std::string, ParameterInput> parameters{};
-  bool contact = true;         ///< by the contact algorithm
+  bool contact = true;         ///< whether the contact algorithm is used
   bool joint_dynamics = true;  ///< see CityScene
 };
 
-/// The vehicles with full collision.
+/// The team of vehicles with full collision.
 class MuroTeam final : public Team {
  public:
   MuroTeam(const City& city, int threads, Wheels wheels, const MotionSetup& motion, const Pattern* lasers = nullptr,
            const std::string& method = "laser.raycast");
-  /// `lasers`: what each vehicle carries, with a range of 5.6 m, or null. `rate`: steps/s.
+  /// `lasers`: scanner of each vehicle, with a range of 5.6 m, or null. `rate`: steps/s.
   MuroTeam(const City& city, int threads, Wheels wheels, const Pattern* lasers = nullptr, int rate = 1000);
 
   void command(int vehicle, WheelSpeeds speeds) override;
@@ -51,8 +51,8 @@ class MuroTeam final : public Team {
   std::vector<std::array<double*, 4>> targets_;  ///< joint.velocity.target of each wheel
 };
 
-/// Two teams that have nothing to do with each other, each on a thread of its own: what the machine gives to two
-/// programs at once, and so the most that two threads can gain.
+/// Two independent teams, each on a thread of its own. They show what the machine can do with two programs at once, and
+/// so the most that two threads can gain.
 class TwoTeams final : public Team {
  public:
   explicit TwoTeams(const City& city);
@@ -66,11 +66,11 @@ class TwoTeams final : public Team {
   void serve();
 
   MuroTeam first_, second_;
-  std::atomic<int> requested_{0}, done_{0};  ///< ms of the second; negative: the end
+  std::atomic<int> requested_{0}, done_{0};  ///< ms of the second team; negative: the end
   std::thread thread_;
 };
 
-/// The vehicles with laser.raycast on each, moved from outside.
+/// The vehicles with laser.raycast on each; the caller sets their poses.
 class MuroScanners final : public Scanners {
  public:
   MuroScanners(const City& city, const Pattern& pattern, double range, int threads);

@@ -62,7 +62,7 @@ const ordered_json ratio_columns = {"ratio", "found", "target"};
 
 std::string ratio_line(const ordered_json& r) { return line_of(ordered_json{r["what"], r["value"], r["target"]}); }
 
-/// The whole file as a page.
+/// Returns the whole file as a page of Markdown.
 std::string page(const ordered_json& all) {
   std::string out = "# Benchmarks\n\n" + machine_line(all["machine"]) + "\n" + head_of(ratio_columns);
   for (const auto& bench : all["benchmarks"])

@@ -28,7 +28,7 @@ class TeamRun {
     }
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
-  /// Mean distance (m) since the last call, and mean height (m).
+  /// Returns the mean distance since the last call, and the mean height, m.
   std::pair<double, double> distance_and_height() {
     double distance = 0, height = 0;
     for (std::size_t v = 0; v < last_.size(); ++v) {
@@ -85,7 +85,7 @@ std::vector<Measurement> compare(const RunPlan& plan, const std::vector<Engine>&
 
 Deviation deviation(const Engine& engine) {
   constexpr int vehicles = 10, intervals = 6000 / City::interval;
-  const int cities = engine.one_body ? 3 : 1;  // the others take long
+  const int cities = engine.one_body ? 3 : 1;  // the others take a long time
   Deviation d;
   for (int c = 0; c < cities; ++c) {
     const City city = City::open(vehicles, std::uint64_t(c + 1));

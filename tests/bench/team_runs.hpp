@@ -8,10 +8,10 @@
 
 namespace muro::bench {
 
-/// How long an engine runs: several cities, each with a new seed, and in each of them timed rounds after a warm-up as
-/// long as one. Runs are short, because vehicles that drive blindly end up at walls; the slowest engine takes some
-/// seconds in all. A round computes the same each time, and a disturbed machine can only take longer: of `repeats` runs
-/// through a city, the fastest of each round counts.
+/// Length of the run of an engine: several cities, each with a new seed. In each city there are timed rounds after a
+/// warm-up of the same length. Runs are short, because vehicles drive blindly and end up at walls; the slowest engine
+/// takes some seconds in all. A round always computes the same, and a busy machine can only make it slower: of
+/// `repeats` runs through a city, the fastest of each round counts.
 struct RunPlan {
   int cities, rounds, intervals, repeats = 1;
   static RunPlan for_team(int vehicles) {
@@ -22,23 +22,23 @@ struct RunPlan {
   double simulated() const { return 1e-3 * City::interval * intervals * (rounds + 1); }  ///< s in each city
 };
 
-/// The result for one engine.
+/// Result of one engine.
 struct Measurement {
   std::vector<double> rates;  ///< vehicle-steps/s of each round
   double distance = 0;        ///< m, driven by a vehicle in a city, on average
   double height = 0;          ///< m, on average after each round
 
   double rate() const;  ///< the median
-  /// The median of the ratios to another's rates, round by round.
+  /// Returns the median of the ratios to the rates of `other`, round by round.
   double ratio_to(const Measurement& other) const;
 };
 
-/// All engines run round by round in turn. `make_city`: from a seed.
+/// Runs all engines alternately, round by round. `make_city`: makes a city from a seed.
 std::vector<Measurement> compare(const RunPlan& plan, const std::vector<Engine>& engines,
                                  const std::function<City(std::uint64_t seed)>& make_city);
 
-/// How far vehicles are from where the same engine takes them with SolverSettings::converged(), after six seconds on
-/// open ground: root of the mean square, and maximum, m. It measures how well an engine solves its equations, not which
+/// Distance of vehicles from where the same engine takes them with SolverSettings::converged(), after six seconds on
+/// open ground: root of the mean square, and maximum, m. It shows how well an engine solves its equations, not which
 /// equations those are.
 struct Deviation {
   double rms = 0, max = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `muro compare --against`: a simulated laser scanner beside recorded scans.
+// `muro compare --against`: compares a simulated laser scanner with recorded scans.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 constexpr double ray_step = 2 * M_PI / 1024;
 constexpr int ray_count = 201;
 
-/// A scanner in front of a wall that is 2 m away; `error`: the parameters of its sensor.error.
+/// Returns a scenario with a scanner and a wall 2 m in front of it; `error`: the parameters of its sensor.error.
 std::string scenario(const std::string& error) {
   return "duration: 1\nworld:\n  objects:\n    wall: {shape: {box: [0.2, 8, 1]}, at: {x: 2.1, z: 0.5}}\n"
          "robots:\n  stand:\n    shape: {box: [0.1, 0.1, 0.1]}\n    mass: 1\n    at: {z: 0.5}\n"
@@ -29,7 +29,7 @@ std::string scenario(const std::string& error) {
 
 double wall(int beam) { return 2 / std::cos((beam - 100) * ray_step); }
 
-/// As a table: the wall, `bias` farther, with normal noise of `sigma` (m).
+/// Returns a table of scans of the wall, `bias` (m) farther, with normal noise of `sigma` (m).
 std::string table_of(int scans, double bias, double sigma) {
   std::string text =
       fmt::format("# scanner: UTM-30LX\n# angle_min: {:.9f}\n# angle_increment: {:.9f}\n", -100 * ray_step, ray_step) +
@@ -49,7 +49,7 @@ class AgainstScans : public testing::Test {
     return test::run_command("cd " + folder.path("") +
                              " && MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " compare " + arguments);
   }
-  /// The median in t.csv; NaN where there is no such row.
+  /// Returns the median in t.csv, or NaN if there is no such row.
   double figure(const std::string& source, const std::string& quantity, const std::string& from = "") const {
     std::istringstream in(test::text_of(folder.path("t.csv")));
     for (std::string line; std::getline(in, line);) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture, read back from its text.
+// The chart, read back from its text.
 #include "host/tools/compare/chart.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ using boost::property_tree::ptree;
 ptree parsed(const Chart& chart) {
   std::istringstream text(svg(chart));
   ptree tree;
-  boost::property_tree::read_xml(text, tree);  // throws when it is no XML
+  boost::property_tree::read_xml(text, tree);  // throws if the text is not XML
   return tree.get_child("svg");
 }
 
@@ -66,7 +66,7 @@ TEST(Chart, ZeroHasAPlaceBelowAllOthers) {
   EXPECT_NEAR(text_place(svg, "0").y - 4.5, all[1].y, 0.11);
 }
 
-/// Left and right end of a text, for letters of a known width.
+/// Returns the left and right end of a text, for letters of a known width.
 std::pair<double, double> ends(const ptree& svg, const std::string& what) {
   for (const auto& [name, node] : svg) {
     if (name != "text" || node.data() != what) continue;

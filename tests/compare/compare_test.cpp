@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `muro compare` as a user starts it.
+// `muro compare` as a user runs it.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -14,7 +14,7 @@ const std::string muro_program =
     std::string("cd " MURO_TEST_SOURCE_DIR " && MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ") + MURO_PROGRAM;
 const std::string urban = " compare examples/urban/urban.yaml --duration 2 --set robots.rovers.count=4 ";
 
-/// The columns of a CSV line behind the label, which has no comma here.
+/// Returns the columns of a CSV line after the label. The label has no comma here.
 std::vector<std::string> columns(const std::string& line) {
   std::vector<std::string> all;
   std::istringstream in(line);

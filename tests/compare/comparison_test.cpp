@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs of which one knows what must come out.
+// Runs with known results.
 #include "host/tools/compare/comparison.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace muro::host {
 namespace {
 
-/// Without gravity a ball of 0.1 m flies at 1 m/s between walls 0.6 m and -0.6 m away, and comes back as fast.
+/// A ball of 0.1 m that flies without gravity at 1 m/s between walls 0.6 m and -0.6 m away, and bounces without loss.
 constexpr const char* billiard = R"(
 duration: 3
 world:
@@ -55,7 +55,7 @@ struct Runs {
 TEST(Comparison, ContactsBeginWhenGeometrySaysSo) {
   const std::vector<VariationResult> results = Runs(billiard, "ball.motion=simplified").all();
   ASSERT_EQ(results[0].failure, "");
-  // 0.5 m to the first wall, then 1 m each: at 0.5, 1.5 and 2.5 s
+  // 0.5 m to the first wall, then 1 m from wall to wall: at 0.5, 1.5 and 2.5 s
   ASSERT_TRUE(results[0].contacts);
   EXPECT_EQ(*results[0].contacts, 3u);
   EXPECT_NEAR(results[0].first_contact.value_or(0), 0.5, 0.011);
@@ -136,7 +136,7 @@ robots:
   const Deviation d = deviation_of(*results[0].trajectory, *results[1].trajectory);
   EXPECT_EQ(d.position_largest, 0) << "the base is fixed";
   ASSERT_TRUE(d.revolute_joints && d.links && !d.prismatic_joints);
-  // without forces the joint stays; with them it swings as a pendulum does
+  // without forces the joint stays; with forces it swings as a pendulum
   const double frequency = std::sqrt(9.81 * length / (length * length + spin));
   double angles = 0, ways = 0, largest = 0;
   for (int i = 0; i <= 30; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Records of scans as SCIP 2.0 and CSV, right and wrong.
+// Records of scans in SCIP 2.0 and CSV, correct and wrong ones.
 #include "host/tools/compare/scan_record.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 using test::scip_scan;
 using test::with_sum;
 
-/// What a URG-04LX with firmware 3.1.04 has answered to PP, byte by byte.
+/// Answer of a URG-04LX with firmware 3.1.04 to PP, byte by byte.
 const std::string parameters =
     "PP\n00P\nMODL:URG-04LX(Hokuyo Automatic Co.,Ltd.);N\nDMIN:20;4\nDMAX:5600;_\nARES:1024;\\\nAMIN:44;7\nAMAX:725;o\n"
     "AFRT:384;6\nSCAN:600;e\n\n";
@@ -167,7 +167,7 @@ TEST(ScanRecordFile, MistakesAreNamedWithTheirPlace) {
 }
 
 TEST(ScanRecordFile, EveryChangedByteOfAScanIsNoticed) {
-  // the sums of SCIP have six bits: a byte of the data that changes by one cannot pass
+  // the sums of SCIP have six bits: a change of a data byte by one is always noticed
   const std::string scan = scip_scan("MD0000002900000", std::vector<std::uint32_t>(30, 2345));
   for (std::size_t at = scan.find("\n00000\n") + 7; at + 2 < scan.size(); ++at) {
     std::string changed = scan;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Statistics of scans that are made with known ones.
+// Statistics of scans that are made with known statistics.
 #include "host/tools/compare/scan_statistics.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double beam_step = 2 * M_PI / 1024;
 
-/// `range(beam, scan)` of `beams` around the front, in steps of a URG-04LX.
+/// Returns scans of `range(beam, scan)` in `beams` around the front, in steps of a URG-04LX.
 ScanRecord scans_of(std::size_t scans, std::size_t beams,
                     const std::function<double(std::size_t, std::size_t)>& range) {
   ScanRecord r;
@@ -28,7 +28,7 @@ ScanRecord scans_of(std::size_t scans, std::size_t beams,
 
 double wall_at(double distance, double angle) { return distance / std::cos(angle); }
 
-/// Independent standard normal numbers by beam and scan.
+/// Independent standard normal numbers for each beam and scan.
 class Noise {
  public:
   double operator()(std::size_t beam, std::size_t scan) const { return Random(7, beam, 0).normal(std::uint32_t(scan)); }
@@ -52,7 +52,7 @@ TEST(ScanStatistics, NoiseOfAWallIsThatOfItsBeams) {
   EXPECT_EQ(b.from, 1.5);
   EXPECT_EQ(b.over_time.count, 200u);
   EXPECT_NEAR(b.over_time.median, 0.005, 0.00005);
-  // the standard deviation of n readings is spread by 1 / sqrt(2 n), 10 % of them below 1.28 of it
+  // relative spread of the standard deviation of n readings: 1 / sqrt(2 n); 10 % of them are lower by 1.28 of it
   EXPECT_NEAR(b.over_time.low, 0.005 * (1 - 1.28 / 20), 0.0001);
   EXPECT_NEAR(b.over_time.high, 0.005 * (1 + 1.28 / 20), 0.0001);
   EXPECT_EQ(b.about_walls.count, 200u * 9) << "nine pieces of 21 beams";
@@ -80,7 +80,7 @@ TEST(ScanStatistics, StepsOfTheReadingsAreFound) {
   const double sigma = 2;  // mm
   const ScanRecord r =
       scans_of(200, 200, [&](std::size_t i, std::size_t s) { return 1e-3 * std::round(1000 + sigma * noise(i, s)); });
-  double same = 0;  // two readings are equal: the sum of the squares of the probabilities of each beam_step
+  double same = 0;  // probability that two readings are equal: sum of the squares of the probabilities of each step
   for (int k = -20; k <= 20; ++k) {
     const double p =
         0.5 * (std::erf((k + 0.5) / (sigma * std::sqrt(2.0))) - std::erf((k - 0.5) / (sigma * std::sqrt(2.0))));
@@ -91,11 +91,11 @@ TEST(ScanStatistics, StepsOfTheReadingsAreFound) {
   EXPECT_NEAR(s.equal_neighbours, same, 0.01);
 }
 
-/// Posts at 1 m before a wall at 3 m, ten beams each: an edge every ten beams. `mixed`: what stands at an edge.
+/// Posts at 1 m before a wall at 3 m, ten beams each: an edge every ten beams.
 double post(std::size_t beam) { return (beam / 10) % 2 == 0 ? 1 : 3; }
 
 TEST(ScanStatistics, MixedReadingsAtEdgesAreCounted) {
-  // every tenth edge has a reading in between, every tenth none at all, in each scan another
+  // every tenth edge has a reading in between, and every tenth has none; each scan has other edges
   const ScanRecord r = scans_of(50, 600, [&](std::size_t i, std::size_t s) {
     const bool at_edge = i % 10 == 0 && i > 0;
     if (at_edge && (i / 10 + s) % 10 == 3) return 1.7;
@@ -109,7 +109,7 @@ TEST(ScanStatistics, MixedReadingsAtEdgesAreCounted) {
 }
 
 TEST(ScanStatistics, WallsAtASlantHaveNoEdges) {
-  // 15 m away at the most, under 80 degrees: neighbours differ by 0.09 m
+  // at most 15 m away, under 80 degrees: neighbours differ by 0.09 m
   const ScanRecord r =
       scans_of(20, 100, [&](std::size_t i, std::size_t) { return 0.5 / std::cos(0.77 + double(i) * beam_step); });
   const ScanStatistics s = statistics_of(r);
@@ -119,7 +119,7 @@ TEST(ScanStatistics, WallsAtASlantHaveNoEdges) {
 
 TEST(ScanStatistics, NoiseByIncidenceIsToldApart) {
   const Noise noise;
-  // a wall whose foot is straight ahead: the angle of a beam is its incidence
+  // a wall that is perpendicular straight ahead: the angle of a beam is its angle of incidence
   const ScanRecord r = scans_of(100, 290, [&](std::size_t i, std::size_t s) {
     const double angle = (double(i) - 144.5) * beam_step, incidence = std::abs(angle) * 180 / M_PI;
     return wall_at(1.1, angle) + (incidence < 20 ? 0.002 : 0.004) * noise(i, s);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a scanner sends, by the communication protocol specification of SCIP 2.0.
+// Messages of a scanner, by the communication protocol specification of SCIP 2.0.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@
 
 namespace muro::test {
 
-/// The line with the character behind it: the lower six bits of the sum of its bytes, + 0x30.
+/// Returns the line with its check character added: the lower six bits of the sum of its bytes, + 0x30.
 inline std::string with_sum(const std::string& line) {
   unsigned sum = 0;
   for (const char c : line) sum += static_cast<unsigned char>(c);
   return line + char((sum & 0x3f) + 0x30);
 }
 
-/// A reply of MD with `values` (mm) of three characters each, 64 characters a line.
+/// Returns a reply to MD with `values` (mm) of three characters each, 64 characters a line.
 inline std::string scip_scan(const std::string& echo, const std::vector<std::uint32_t>& values) {
   std::string data, text = echo + "\n" + with_sum("99") + "\n" + with_sum("0000") + "\n";
   for (const std::uint32_t v : values)

@@ -9,7 +9,7 @@
 namespace muro::host {
 namespace {
 
-/// Two robots that stand where they are put.
+/// Two robots that stay where they are put.
 struct Pair : test::Scene {
   const RobotView& a = add("a", test::single_body(Shape::sphere(0.1), {.mass = 1}));
   const RobotView& b = add("b", test::single_body(Shape::sphere(0.1), {.mass = 1}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every motion algorithm owes, whatever its level of detail.
+// Requirements on every motion algorithm, at any level of detail.
 #include <gtest/gtest.h>
 
 #include "tests/conformance/team.hpp"
@@ -82,14 +82,14 @@ TEST_P(EveryKinematicMotion, StopsAtAWallWhenItIsToldTo) {
   }
 }
 
-/// Those that move whatever has wheels or nothing at all.
+/// Returns the motions for any robot with or without wheels.
 std::vector<std::string> motions_of_vehicles() {
   std::vector<std::string> some = test::algorithms_of("motion");
   std::erase_if(some, test::names_parts);
   return some;
 }
 
-/// Motions of vehicles that no force moves.
+/// Returns the motions of vehicles that use no forces.
 std::vector<std::string> kinematic_motions() {
   std::vector<std::string> some = motions_of_vehicles();
   std::erase_if(some, [](const std::string& id) {

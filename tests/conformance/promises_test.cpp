@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plugins are held to what they promise: determinism, independent items, no allocation, restorable state.
+// Plugins must keep what they promise: determinism, independent items, no allocation, restorable state.
 #include <gtest/gtest.h>
 
 #include "tests/conformance/team.hpp"
@@ -53,7 +53,7 @@ TEST_P(EveryAllocationFreeMotionsTeam, AllocatesNothingInAStepOnceWarm) {
 #endif
 }
 
-/// Motions that promise to be allocation free; engines allocate as they like.
+/// Returns the motions that promise to be free of allocations; engines may allocate.
 std::vector<std::string> allocation_free_motions() {
   std::vector<std::string> some = test::algorithms_of("motion");
   std::erase_if(some, [](const std::string& id) {
@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Conformance, EveryMotionsTeam, ::testing::ValuesIn(test
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryAllocationFreeMotionsTeam, ::testing::ValuesIn(allocation_free_motions()),
                          test::name_of);
 
-/// Steps every batched algorithm once in one piece and once item by item, from the same state.
+/// Runs one step of every batched algorithm with all items at once and one by one, from the same state.
 void expect_same_bits_item_by_item(const std::string& motion) {
   test::Team whole(motion), split(motion);
   whole.run_for(0.5);

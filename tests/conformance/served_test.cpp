@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What holds for every controller that serves clients on a stream, whatever its protocol: it has a parameter `stream`.
+// Requirements on every controller that serves clients on a stream, with any protocol: it has a parameter `stream`.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -14,7 +14,7 @@
 namespace muro {
 namespace {
 
-/// Algorithms of kind controller with a parameter `stream`.
+/// Returns the algorithms of kind controller with a parameter `stream`.
 std::vector<std::string> served_controllers() {
   std::vector<std::string> some;
   for (const std::string& id : test::algorithms_of("controller")) {
@@ -25,7 +25,7 @@ std::vector<std::string> served_controllers() {
   return some;
 }
 
-/// A rover with a laser scanner, and the controller on a TCP port of its own.
+/// A rover with a laser scanner and the controller, on a TCP port of its own.
 struct Served : test::Scene {
   const RobotView* rover = nullptr;
   std::uint16_t port = 0;  ///< 0: nothing is open
@@ -59,13 +59,13 @@ struct Served : test::Scene {
   }
 };
 
-/// Of a client that knows no protocol; and gives it time to arrive.
+/// Sends the bytes of a client that knows no protocol, and gives them time to arrive.
 void say(const test::Peer& stranger, const std::string& bytes) {
-  static_cast<void>(stranger.say(bytes));  // who hears it may have hung up
+  static_cast<void>(stranger.say(bytes));  // the server may have closed the connection
   std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
-/// Bytes of all values, in lines of different lengths.
+/// Returns bytes of all values, in lines of different lengths.
 std::string rubbish(unsigned seed, std::size_t size) {
   std::mt19937 random(seed);
   std::string bytes;
@@ -96,7 +96,7 @@ TEST_P(EveryServedController, LetsNoStrangerDisturbARobot) {
     if (i % 2 == 0) stranger.reset();
   }
   EXPECT_EQ(s.now(), alone.now());
-  if (GetParam() != "controller.jsonrpc") {  // which hangs up, and records what comes of requests
+  if (GetParam() != "controller.jsonrpc") {  // which closes the connection, and records only the effects of requests
     EXPECT_GT(s.inputs().count(), 20u) << "what they say is heard";
   }
   EXPECT_EQ(s.pose(*s.rover).position, alone.pose(*alone.rover).position);

@@ -11,7 +11,7 @@
 
 namespace muro::test {
 
-/// The ids of all algorithms of one kind that the build offers.
+/// Returns the ids of all algorithms of one kind in the build.
 inline std::vector<std::string> algorithms_of(const std::string& kind) {
   std::vector<std::string> ids;
   for (const CatalogEntry& o : plugins().catalog())
@@ -19,20 +19,20 @@ inline std::vector<std::string> algorithms_of(const std::string& kind) {
   return ids;
 }
 
-/// Whether a motion wants to be told which parts of a robot are what, and so moves no other robots.
+/// Whether a motion needs the names of certain parts of a robot, and so does not move other robots.
 inline bool names_parts(const std::string& motion) {
   const Rows<Parameter> known = plugins().algorithm(motion).description->parameters;
   return std::any_of(known.begin(), known.end(), [](const Parameter& p) { return p.is_required; });
 }
 
-/// "motion_ode" for motion.ode: names of tests have no dots.
+/// Returns "motion_ode" for motion.ode, since names of tests have no dots.
 inline std::string name_of(const ::testing::TestParamInfo<std::string>& test) {
   std::string name = test.param;
   std::replace(name.begin(), name.end(), '.', '_');
   return name;
 }
 
-/// What a motion is tried with: a model that it can move, its drive, the link that carries a laser, and parameters.
+/// A model that a motion can move, its drive, the link that carries a laser, and parameters of the motion.
 struct Vehicle {
   std::string model, drive, laser = "laser_link";
   std::map<std::string, ParameterInput> parameters{};
@@ -48,8 +48,8 @@ inline Vehicle vehicle_for(const std::string& motion) {
   return {"rover", "drive.skid_steer"};
 }
 
-/// Robots that all move by one algorithm on a plane between a few boxes, with lasers; commanded from outside: vehicles
-/// by the velocity of their bases, others by those of their joints.
+/// Robots of one motion on a plane between a few boxes, with lasers. Vehicles get commands for the velocity of their
+/// bases, other robots for those of their joints.
 struct Team : Scene {
   std::vector<const RobotView*> rovers;
 
@@ -86,7 +86,7 @@ struct Team : Scene {
       const auto turn_joint = [&](const char* joint, double rate) {
         world().value(std::string(r->name) + joint, keys::joint_velocity_target) = rate;
       };
-      turn_joint("/left_hip_pitch", -0.05);  // lifts the foot, flat as it is
+      turn_joint("/left_hip_pitch", -0.05);  // lifts the foot and keeps it level
       turn_joint("/left_knee", 0.1);
       turn_joint("/left_ankle_pitch", -0.05);
       turn_joint("/right_hip_yaw", 0.1 * turn);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What comes from outside: recorded and replayed inputs, clients for which time waits, lateness of paced runs, placing.
+// External inputs: recorded and replayed inputs, clients that time waits for, lateness of paced runs, placing.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -34,7 +34,7 @@ struct Sink final : InputSink {
   std::vector<Entry> entries;
 };
 
-/// Of a simulation in which nothing is.
+/// The input log of an empty simulation.
 struct EmptyLog {
   World world;
   Scheduler scheduler;

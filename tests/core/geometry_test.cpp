@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What geometry.hpp writes with numbers, against Eigen's matrices.
+// Functions that geometry.hpp writes out in numbers, compared with Eigen's matrices.
 #include <gtest/gtest.h>
 
 #include <random>

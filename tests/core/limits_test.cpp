@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers, names and times that cannot be are refused where they come in.
+// Impossible numbers, names and times are refused where they enter.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Outputs and inputs in a folder of their own. What is told says FOLDER for it.
+/// Outputs and inputs in a folder of their own. Messages name it FOLDER.
 struct Files {
   test::ScratchFolder folder;
   OutputRegistry registry;

@@ -6,13 +6,13 @@
 namespace muro {
 namespace {
 
-/// A plan on some machine: what its runs take on one thread and on several, in ticks.
+/// Runs of a plan on some machine, with the time that a run takes on one thread and on several, in ticks.
 struct Runs {
   ParallelismTuner tuner = {};
   std::uint64_t one = 0, several = 0;
   int on_several = 0;
 
-  /// Returns how many of them were made on several threads.
+  /// Makes runs; returns the number of those on several threads.
   int make(int count) {
     on_several = 0;
     for (int i = 0; i < count; ++i) {
@@ -39,7 +39,7 @@ TEST(ParallelismTuner, UsesOneThreadNearlyAlwaysWhereThatIsFaster) {
 TEST(ParallelismTuner, KeepsSeveralThreadsWhileWorkGrows) {
   Runs runs{.one = 16'000, .several = 9'000};
   runs.make(5'000);
-  for (int more = 0; more < 40; ++more) {  // in the end it takes twice as long as one thread took at first
+  for (int more = 0; more < 40; ++more) {  // in the end several threads take twice as long as one thread took at first
     runs.one += 1'000, runs.several += 600;
     EXPECT_GT(runs.make(1'000), 900) << runs.one;
   }
@@ -69,7 +69,7 @@ TEST(ParallelismTuner, ReturnsToOneThreadWhenWorkShrinks) {
 }
 
 TEST(ParallelismTuner, BacksOffFromThreadsThatAreSlowExceptInTrials) {
-  // A machine with more to do than it has cores: a worker is suspended after some milliseconds, not at once.
+  // A machine with more work than cores: it suspends a worker after some milliseconds, not at once.
   Runs runs{.one = 16'000, .several = 9'000};
   int slow = 0;
   for (int i = 0, in_a_row = 0; i < 50'000; ++i) {
@@ -83,7 +83,7 @@ TEST(ParallelismTuner, BacksOffFromThreadsThatAreSlowExceptInTrials) {
 
 TEST(ParallelismTuner, IsNotDecidedByOneOutlier) {
   Runs runs{.one = 16'000, .several = 9'000};
-  for (const int before : {10, 20, 500}) {  // in a trial, soon after it, later
+  for (const int before : {10, 20, 500}) {  // during a trial, soon after it, later
     runs.make(before);
     runs.tuner.learn(50'000'000);  // 3000 times as long
     EXPECT_GT(runs.make(1'000), 950) << before;

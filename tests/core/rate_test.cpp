@@ -10,7 +10,7 @@ TEST(Rate, RunsAtTheFloorOfTheExactTimeWithoutDrift) {
   EXPECT_EQ(Rate(3).time_of(1), 333'333'333);
   EXPECT_EQ(Rate(3).time_of(3), 1'000'000'000);
   EXPECT_EQ(Rate(29.97).time_of(2997), 100'000'000'000);
-  EXPECT_EQ(Rate(1000).time_of(86'400'000), 86'400'000'000'000);  // a day later, to the nanosecond
+  EXPECT_EQ(Rate(1000).time_of(86'400'000), 86'400'000'000'000);  // after a day, exact to the nanosecond
   EXPECT_EQ(Rate(0.1).time_of(7), 70'000'000'000);
 }
 

@@ -69,7 +69,7 @@ TEST(RobotTree, FlattensToFramesWithFoldedTransforms) {
       << "a joint without a body has a frame of its own";
   EXPECT_EQ(world.object_name(robot.links[5].object), "cart/hand");
   EXPECT_EQ(robot.links[5].parent, 4);
-  // mast turned by 90 degrees: its x axis is the cart's y axis
+  // the mast is turned by 90 degrees: its x axis is the cart's y axis
   Pose p;
   for (const int i : {3, 4, 5}) p = p * pose_in_parent(robot.links[std::size_t(i)], i == 4 ? 0.5 : 0);
   EXPECT_LT((p.position - Vec3(0, 0.5, 1)).norm(), 1e-12);

@@ -35,7 +35,7 @@ class Recorder final : public abi::AlgorithmInstance {
   void* find_extension(const ExtensionId&) noexcept override { return nullptr; }
   Step last;
   bool fails = false;
-  std::uint64_t busy_step = 16;  ///< of each 16 that in which it works; 16: none
+  std::uint64_t busy_step = 16;  ///< the step of each 16 in which it works; 16: none
 
   static void work() {
     for (volatile int i = 0; i < 100'000;) i = i + 1;
@@ -147,7 +147,7 @@ TEST_F(SchedulerTest, ASensorDoesNotLengthenThePeriodOfATaskOnDemand) {
   EXPECT_DOUBLE_EQ(recorders[3].last.dt, 0.1);
 }
 
-/// A motion that reads what a contact algorithm writes, which reads what a collision algorithm writes.
+/// A motion that reads output of a contact algorithm, which reads output of a collision algorithm.
 class StepsOfMotion : public SchedulerTest {
  protected:
   void add_contact_and_motion(double rate) {
@@ -219,7 +219,7 @@ TEST_F(StepsOfMotion, GoOnFromAStateWithoutABeginning) {
 
 TEST_F(SchedulerTest, AStopEndsAPacedWaitAndLosesNoInstant) {
   add("a", 1);
-  scheduler.set_pacing({0.01});  // an instant in 100 s
+  scheduler.set_pacing({0.01});  // one instant in 100 s
   int asked = 0;
   scheduler.run_until(10'000'000'000, [&] { return ++asked >= 3; });
   EXPECT_EQ(log, (Log{"a@0"}));
@@ -285,7 +285,7 @@ TEST_F(SchedulerTest, AccountsForEveryRun) {
   EXPECT_GT(double(scheduler.cost(a).ticks) * scheduler.seconds_per_tick(), 0);
 }
 
-// Costs of long runs are samples; what is done each 16 steps is in as many of them as its share of the steps.
+// Costs of long runs are sampled. Work in every 16th step must be in as many samples as its share of the steps.
 TEST_F(SchedulerTest, CostsOfRareWorkDoNotDependOnItsStep) {
   std::vector<TaskId> tasks;
   for (const std::uint64_t step : {0u, 1u, 8u, 13u}) {
@@ -297,7 +297,7 @@ TEST_F(SchedulerTest, CostsOfRareWorkDoNotDependOnItsStep) {
   for (const TaskId t : tasks) before.push_back(double(scheduler.cost(t).ticks));
   const int times = 28;
   scheduler.run_until((64 + 16 * times) * 1'000'000LL);
-  double quickest = 1;  // s; a run that is disturbed takes longer
+  double quickest = 1;  // s; a disturbed run takes longer
   for (int i = 0; i < times; ++i) {
     const auto begin = std::chrono::steady_clock::now();
     Recorder::work();

@@ -131,7 +131,7 @@ TEST_F(Stages, AStageIsDisabledWhenAllOfItsCallsAre) {
   every(add({{IndexSpace::whole}, maybe, maybe}), 0, true);
   every(add({{IndexSpace::robots, Scope::own_robot}}), 0, true);
   const auto all = stages();
-  ASSERT_EQ(all.size(), 3u);  // the last of the first task goes on with the second
+  ASSERT_EQ(all.size(), 3u);  // the last phase of the first task and the second task share call chains
   EXPECT_TRUE(all[0].is_enabled());
   EXPECT_FALSE(all[1].is_enabled());
   EXPECT_TRUE(all[2].is_enabled());
@@ -169,7 +169,7 @@ TEST_F(Stages, ItemsThatAreNotInTheOrderOfRobotsAreNotDivided) {
   EXPECT_EQ(all[0].chains(), 1u);
 }
 
-/// Random tasks: whatever two calls share, with one of them writing, keeps its order.
+/// Random tasks: calls keep their order if they share a slot and one of them writes to it.
 TEST_F(Stages, EveryConflictKeepsTheOrderOfDueTasks) {
   std::mt19937 random(7);
   const auto below = [&](std::uint32_t n) { return std::uniform_int_distribution<std::uint32_t>(0, n - 1)(random); };

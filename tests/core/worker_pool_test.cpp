@@ -15,7 +15,7 @@
 namespace muro {
 namespace {
 
-/// Counts how often each item was worked on.
+/// Counts how often a thread has worked on each item.
 struct Counts {
   std::vector<std::atomic<int>> of_item;
   std::array<std::atomic<int>, 16> of_thread{};
@@ -70,9 +70,9 @@ TEST(WorkerPool, SharesLongWork) {
   for (const auto& count : work.of_thread) EXPECT_GT(count, 0);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need address space of their own
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // sanitizers need address space of their own
 
-/// Leaves so much address space (bytes) that only a few stacks of threads fit in.
+/// Leaves so little address space (bytes) that only a few thread stacks fit into it.
 void limit_address_space(std::size_t free_bytes) {
   std::size_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a reader tells of a world, before anything of it is in a simulation.
+// Content of a world as a reader reports it, before any of it is in a simulation.
 #include "core/world_model.hpp"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(WorldModel, TellsWhatCannotBe) {
                                                      "a model `far` has a coordinate that is not from -1e8 to 1e8 m"}));
   EXPECT_FALSE(world.gravity().has_value());
   EXPECT_FALSE(world.friction_rule().has_value());
-  // one that was never built is a matter of its own tree
+  // the tree of a model reports itself that it was never built
   EXPECT_FALSE(world.models()[1].tree.usable());
 }
 

@@ -41,7 +41,7 @@ std::uint64_t total(const Costs& costs) {
   return sum;
 }
 
-/// "motion_simplified" of ".../lib/muro/motion_simplified.so", "core" of the program; nothing for other objects.
+/// Returns "motion_simplified" for ".../lib/muro/motion_simplified.so", "core" for the program, "" for other objects.
 std::string plugin_of(const std::string& object, const std::string& plugin_folder, const std::string& program) {
   if (object == program) return "core";
   if (!object.starts_with(plugin_folder + "/")) return "";
@@ -49,7 +49,7 @@ std::string plugin_of(const std::string& object, const std::string& plugin_folde
   return name.substr(0, name.find('.'));
 }
 
-/// Names of templates run to a thousand characters.
+/// Returns a name of limited length: those of templates can have a thousand characters.
 std::string shortened(const std::string& function) {
   constexpr std::size_t longest = 110;
   return function.size() <= longest ? function : function.substr(0, longest) + "...";
@@ -59,8 +59,8 @@ double ratio(std::uint64_t now, std::uint64_t before) {
   return double(now) / double(std::max<std::uint64_t>(before, 1));
 }
 
-/// Functions sorted by what they cost more than in the budget; those that are in none, and too small for one, are left
-/// out.
+/// Returns the functions that have grown most beyond the budget. Functions that are too small for a budget and have
+/// none are left out.
 std::string where(const Cost& budget, const Cost& now) {
   struct Growth {
     std::string name;
@@ -133,7 +133,7 @@ Costs read_callgrind(const std::string& file, const std::string& plugin_folder, 
   std::ifstream in = open(file);
   Costs costs;
   std::string plugin, function;
-  bool is_inclusive = false;  // the line after `calls=` counts what is called, which has lines of its own
+  bool is_inclusive = false;  // the line after `calls=` counts the called function, which has lines of its own
   for (std::string line; std::getline(in, line);) {
     if (line.starts_with("ob=")) {
       plugin = plugin_of(line.substr(3), plugin_folder, program);
@@ -161,7 +161,7 @@ std::vector<std::string> grown(const SceneBudget& budget, const Costs& now, doub
   for (const auto& [plugin, cost] : now) {
     const auto found = budget.costs.find(plugin);
     if (found == budget.costs.end()) {
-      // what was just below a hundredth may rise above it
+      // a cost just below a hundredth may rise above it
       if (double(cost.instructions) > 1.5 * least)
         problems.push_back(fmt::format("{}: {} executes {} instructions and has no budget{}", budget.name, plugin,
                                        cost.instructions, where({}, cost)));

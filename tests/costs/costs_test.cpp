@@ -11,7 +11,7 @@
 namespace muro::costs {
 namespace {
 
-/// What callgrind writes of a plugin with two functions, of which one calls the C library, and of the program.
+/// Output of callgrind for the program and for a plugin with two functions, one of which calls the C library.
 constexpr const char* written = R"(# callgrind format
 version: 1
 events: Ir

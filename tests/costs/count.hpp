@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts the instructions of scenes by callgrind.
+// Counts the instructions of scenes with callgrind.
 #pragma once
 
 #include <utility>
@@ -8,11 +8,11 @@
 
 namespace muro::costs {
 
-/// The file of the source tree.
+/// Path of the file in the source tree.
 inline constexpr const char* budgets_file = MURO_TEST_SOURCE_DIR "/tests/costs/budgets.txt";
 
-/// Runs the scenes of that file on one thread with packs of AVX2; returns for each what it costs. Throws
-/// std::runtime_error with what valgrind says when that fails.
+/// Runs the scenes of that file on one thread with packs of AVX2 and returns the costs of each. Throws
+/// std::runtime_error with the text of valgrind on failure.
 std::vector<std::pair<SceneBudget, Costs>> count();
 
 }  // namespace muro::costs

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Runs scenes for callgrind, which counts the instructions of their steps alone:
+// Runs scenes for callgrind, which counts only the instructions of their steps:
 //
 //     valgrind --tool=callgrind --instr-atstart=no --callgrind-out-file=OUT ... count_instructions LIST
 //
-// LIST has lines as Budgets reads them (budgets.hpp). Each scene runs for its warm-up, then callgrind counts what the
-// rest of it executes on one thread, and writes it to OUT.1, OUT.2, ...
+// LIST has lines as in a file of budgets (budgets.hpp). Each scene runs for its warm-up. Then callgrind counts the
+// instructions of the rest, on one thread, and writes them to OUT.1, OUT.2, ...
 #include <cmath>
 #include <cstdio>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes tests/costs/budgets.txt anew, with what this build costs.
+// Writes tests/costs/budgets.txt anew, with the costs of this build.
 #include <cstdio>
 #include <exception>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Same input, same seed: same bits; for the urban team at several levels and with noisy sensors.
+// Equal input and seed give equal bits: the urban team at several levels and with noisy sensors.
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"

@@ -11,7 +11,7 @@
 namespace muro::host {
 namespace {
 
-/// Every scenario under examples/: all files that have robots, but for those with a server, whose port may be taken.
+/// Returns all files under examples/ that have robots, except those with a server, whose port may be taken.
 std::vector<std::string> examples() {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(MURO_TEST_SOURCE_DIR "/examples"))
@@ -22,13 +22,13 @@ std::vector<std::string> examples() {
   return files;
 }
 
-/// Overrides: one camera in place of twenty, whose pictures take minutes without a GPU.
+/// Returns overrides for one camera instead of twenty, whose pictures take minutes without a GPU.
 std::vector<std::string> lighter(const std::string& example) {
   if (!example.ends_with("/soccer/cameras.yaml")) return {};
   return {"robots.red.camera=off", "robots.blue[1-9].camera=off"};
 }
 
-/// The hash after `seconds` on so many threads, all of which are used wherever something may overlap.
+/// Returns the hash after `seconds` on `threads` threads, all of which are used wherever calls may overlap.
 std::uint64_t hash_after(Scenario scenario, double seconds, unsigned threads) {
   BuiltScenario built = build(std::move(scenario), test::plugins());
   built.simulation->set_threads(threads);
@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Threads, OfExample,
                          name_of);
 INSTANTIATE_TEST_SUITE_P(SlowThreads, OfExample, ::testing::ValuesIn(examples()), name_of);
 
-/// Some robots of each level so close together that they touch, and boxes and balls between them.
+/// Some robots of each level, so close together that they touch, with boxes and balls between them.
 constexpr const char* crowd[] = {
     "  near:\n    model: {MODELS}/rover.urdf\n    count: 14\n"
     "    place: {grid: {count: [7, 2], spacing: [0.6, 0.6]}}\n"
@@ -163,7 +163,7 @@ TEST(SlowThreads, TheOrderOfDeclarationChangesNoRobot) {
 TEST(Threads, AlgorithmsTouchOnlyWhatTheyHaveDeclared) {
   const test::ScratchFolder folder;
   const std::pair<std::vector<int>, double> crowds[] = {{{0, 1, 2, 3}, 0.5}, {{1, 4, 5}, 0.2}};
-  for (const auto& [parts, seconds] : crowds) {  // many touch in that time
+  for (const auto& [parts, seconds] : crowds) {  // many robots touch in that time
     BuiltScenario plain = build(crowd_in_order(folder, parts), test::plugins());
     BuiltScenario checked = build(crowd_in_order(folder, parts), test::plugins());
     checked.simulation->verify_access();

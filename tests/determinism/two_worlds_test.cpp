@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Several worlds in one process, one after the other and at once: none has a say in another.
+// Several worlds in one process, one after the other and at the same time, do not influence each other.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -16,8 +16,8 @@ namespace {
 
 constexpr double duration = 0.3;  // s
 
-/// All scenarios of the examples but for those with a server, whose port only one can have, and robots that collide
-/// with meshes at every motion with forces.
+/// Returns all scenarios of the examples, except those with a server, whose port only one can have, and scenarios of
+/// robots with collision meshes in every motion by forces.
 std::vector<Scenario> scenarios(const test::ScratchFolder& folder) {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(MURO_TEST_SOURCE_DIR "/examples"))
@@ -37,7 +37,7 @@ std::vector<Scenario> scenarios(const test::ScratchFolder& folder) {
   return all;
 }
 
-/// The state at the end, or nothing where an algorithm decides by the time that it takes.
+/// Returns the state hash at the end, or nothing if an algorithm takes decisions by computing time.
 std::optional<std::uint64_t> hash_of(const Scenario& scenario, Registry& registry) {
   const BuiltScenario built =
       build(Scenario(scenario), registry, [](Simulation& s) { s.set_log([](LogLevel, std::string_view) {}); });
@@ -46,7 +46,7 @@ std::optional<std::uint64_t> hash_of(const Scenario& scenario, Registry& registr
   return built.simulation->state_hash();
 }
 
-/// What each of them gives when it is the only one at its time.
+/// Results of each scenario when it is the only one in the process.
 struct Worlds : ::testing::Test {
   static std::vector<Scenario> all;
   static std::vector<std::optional<std::uint64_t>> alone;
@@ -66,7 +66,7 @@ TEST_F(SlowWorlds, OneAfterTheOtherAreAsAlone) {
 }
 
 TEST_F(Worlds, AtOnceAreAsAlone) {
-  // from both ends, so that different ones are at work at the same time
+  // from both ends, so that different scenarios run at the same time
   const auto run = [&](bool backwards) {
     Registry registry({MURO_TEST_PLUGIN_DIR});
     for (std::size_t k = 0; k < all.size(); ++k) {

@@ -11,14 +11,14 @@ namespace muro::engines {
 
 using Parameters = std::map<std::string, ParameterInput>;
 
-/// Motions in which contacts push robots, by id: those of the build.
+/// Returns the motions of the build in which contacts push robots, by id.
 inline std::vector<std::string> all_motions() {
   std::vector<std::string> ids;
   for (const CatalogEntry& o : test::plugins().catalog())
     if (o.kind == "motion" && o.features && (*o.features & feature_contact) != 0) ids.push_back(o.id);
   return ids;
 }
-/// The same, of physics engines alone.
+/// Returns the same motions, but only those of physics engines.
 inline std::vector<std::string> engine_motions() {
   std::vector<std::string> ids = all_motions();
   std::erase(ids, "motion.simplified");
@@ -29,13 +29,13 @@ inline std::string name_of(const ::testing::TestParamInfo<std::string>& info) {
 }
 
 struct World : test::Scene {
-  std::string log;  ///< all that was told
+  std::string log;  ///< all messages
 
   World() {
     set_log([this](LogLevel, std::string_view text) { log += std::string(text) + "\n"; });
   }
-  /// Moves all robots so far by `motion`. Parameters that the motion does not have are left out. `of_contact`: those of
-  /// contact.penalty.
+  /// Moves all robots so far by `motion`. Leaves out parameters that the motion does not have. `of_contact`: parameters
+  /// of contact.penalty.
   void start(const std::string& motion, Parameters parameters = {}, double rate = 1000, Parameters of_contact = {}) {
     const Description& d = *test::plugins().algorithm(motion).description;
     std::erase_if(parameters, [&](const auto& p) {
@@ -49,7 +49,7 @@ struct World : test::Scene {
     const Shape box = test::with(Shape::box(size), friction);
     world().add_scenery(name, {centre, Quat::Identity()}, std::span<const Shape>(&box, 1));
   }
-  /// Why a run of so many seconds ends.
+  /// Runs for `seconds` and returns the error that ends the run.
   std::string failure_in(double seconds) {
     return test::complaint_of<StepError>([&] { run_for(seconds); });
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an engine cannot go on from is an error with the robot and what to do, and the process lives on.
+// A state from which an engine cannot continue is an error with the robot and advice, and does not end the process.
 #include <cmath>
 #include <limits>
 
@@ -108,7 +108,7 @@ TEST_P(AnEngineAndAJoint, NamesARobotOfAnotherMotionThatIsNowhere) {
 
 INSTANTIATE_TEST_SUITE_P(Engines, AnEngineAndAJoint, ::testing::ValuesIn(engine_motions()), name_of);
 
-/// A box about (5, 0, 0), far from its own origin.
+/// Checks a box about (5, 0, 0), far from its own origin.
 TEST(EnginesOfCollision, WriteNothingToTheStandardOutput) {
   const test::ScratchFolder folder;
   const std::string file =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What starts in scenery is parted from it at a bounded speed.
+// A body that starts in scenery moves out of it at a bounded speed.
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/mesh/files_testing.hpp"
 #include "tests/engines/engine_scene.hpp"
@@ -12,7 +12,7 @@ using test::block;
 
 constexpr double correcting_speed = 1;  ///< m/s: the default of all motions
 
-/// The fastest that `robot` is within `seconds`, less what it falls.
+/// Returns the largest speed of `robot` within `seconds`, less that of its fall.
 double top_speed(World& w, const RobotView& robot, double seconds) {
   const double start = w.pose(robot).position.z();
   double fastest = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Motions whose contacts are springs tell of robots that stand too deep in what carries them.
+// Motions whose contacts are springs report robots that stand too deep in the bodies that carry them.
 #include "tests/engines/engine_scene.hpp"
 
 namespace muro::engines {
@@ -9,7 +9,7 @@ class RestingDepth : public ::testing::TestWithParam<std::string> {
  protected:
   World w;
 
-  /// All robots so far, on contacts of `frequency` (Hz): they rest g / (2 pi frequency)^2 deep, 1 cm at 5 Hz.
+  /// Starts all robots so far with contacts of `frequency` (Hz): they rest g / (2 pi frequency)^2 deep, 1 cm at 5 Hz.
   void start(double frequency, Parameters parameters = {}) {
     parameters.emplace("frequency", frequency);
     w.start(GetParam(), std::move(parameters), 1000, {{"frequency", frequency}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs end when a body is too fast or too deep in scenery, and not before.
+// Runs end when a body is too fast or too deep in scenery, and not otherwise.
 #include <cmath>
 
 #include "tests/engines/engine_scene.hpp"

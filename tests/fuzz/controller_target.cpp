@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Control libraries: their tables, what a scenario says about their ports, and their files.
+// Control libraries: their tables, the ports of a scenario, and their files.
 #include <deque>
 #include <sstream>
 
@@ -18,7 +18,7 @@ int no_step(void*, const muro_controller_step*, char*, std::size_t) { return 0; 
 void* no_instance(const muro_controller_setup*, char*, std::size_t) { return nullptr; }
 void no_end(void*) {}
 
-/// A table that points to memory of its own: what no check can see, an address that is wrong, is left out.
+/// A table that points to memory of its own. Wrong addresses, which no check can find, are left out.
 class Table {
  public:
   explicit Table(const std::string& text) {
@@ -28,7 +28,7 @@ class Table {
     for (std::string line; std::getline(lines, line);) read(line);
     table_.inputs = inputs_.empty() ? nullptr : inputs_.data();
     table_.outputs = outputs_.empty() ? nullptr : outputs_.data();
-    // more ports than there are would be read as such
+    // a larger count than that of ports would be a wrong address
     if (table_.inputs) table_.input_count = std::uint32_t(inputs_.size());
     if (table_.outputs) table_.output_count = std::uint32_t(outputs_.size());
     table_.tunables = tunables_.empty() ? nullptr : tunables_.data();
@@ -119,7 +119,7 @@ void read_as_controller(Bytes bytes) {
   }
 }
 
-/// Of plugins as of control code: whether all of the file is there that the loader would read.
+/// Reads the file of a control library or plugin: checks that it has all parts that the loader would read.
 void read_as_library(Bytes bytes) {
   const std::string missing = missing_part_of_library(file_with(bytes, "library.so"));
   if (!missing.empty()) outcome(missing);

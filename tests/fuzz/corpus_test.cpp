@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The corpora, which have all that fuzzing has found so far, in the program as it is built.
+// Reads the corpora, which have all that fuzzing has found so far, in the program as it is built.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -19,7 +19,7 @@ std::vector<std::uint8_t> bytes_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// Each file whole, and cut at some places.
+/// Reads each file whole, and cut at some places.
 TEST_P(Corpus, IsReadOrRefused) {
   int files = 0;
   for (const auto& file : fs::directory_iterator(std::string(CORPUS "/") + GetParam().name)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Meshes and pictures, by the parser process as in every program: the libraries that decode them are left to themselves
-// there, and what is asked for here is an answer or an error, in time, whatever becomes of them.
+// Meshes and pictures, read by the parser process as in every program. The libraries that decode them may fail there;
+// the target requires only an answer or an error, in time.
 #include "muro/algorithm.hpp"
 #include "plugins/common/mesh/mesh.hpp"
 #include "plugins/common/parser_process/ask.hpp"
@@ -17,7 +17,7 @@ void refused(const Error& e) {
 
 }  // namespace
 
-/// The first byte says which of the formats that are documented.
+/// Reads a mesh. The first byte selects one of the documented formats.
 void read_as_mesh(Bytes bytes) {
   if (bytes.empty()) return;
   constexpr const char* names[] = {"mesh.stl", "mesh.obj", "mesh.dae", "mesh.gltf", "mesh.glb"};
@@ -33,7 +33,7 @@ void read_as_mesh(Bytes bytes) {
 }
 
 void read_as_picture(Bytes bytes) {
-  if (bytes.empty()) return;  // it would be read from a file
+  if (bytes.empty()) return;  // no bytes mean a picture from a file
   parser_process::Writer request;
   request.text("picture.png");
   request.list(bytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FMUs: archives, model descriptions, and what a scenario says about their variables.
+// FMUs: archives, model descriptions, and their variables in a scenario.
 #include <sstream>
 
 #include "muro/algorithm.hpp"
@@ -38,7 +38,7 @@ const fmu::ModelDescription& variables() {
   return description;
 }
 
-/// "PARAMETER TEXT" in each line.
+/// Reads lines of "PARAMETER TEXT".
 void read_mappings(const std::string& text) {
   const fmu::ModelDescription& description = variables();
   std::istringstream lines(text);
@@ -55,7 +55,7 @@ void read_mappings(const std::string& text) {
 
 }  // namespace
 
-/// An archive, a table of inputs, a model description, or lines of a scenario, by how the bytes begin.
+/// Reads an archive, a table of inputs, a model description, or lines of a scenario, depending on the first bytes.
 void read_as_fmu(Bytes bytes) {
   const std::string text = text_of(bytes);
   try {

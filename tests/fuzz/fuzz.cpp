@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The program of libFuzzer. Its target is the environment's MURO_FUZZ_TARGET, such as urdf; all else are options of
-// libFuzzer: https://llvm.org/docs/LibFuzzer.html
+// The program of libFuzzer. The environment variable MURO_FUZZ_TARGET names the target, such as urdf. All arguments are
+// options of libFuzzer: https://llvm.org/docs/LibFuzzer.html
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

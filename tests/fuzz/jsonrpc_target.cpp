@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines of clients of controller.jsonrpc, to which a simulation in memory answers.
+// Lines of clients of controller.jsonrpc, which a simulation in memory answers.
 #include <sstream>
 
 #include "plugins/controller/jsonrpc/service_testing.hpp"
@@ -7,9 +7,9 @@
 
 namespace muro::fuzz {
 
-constexpr int most_requests = 10'000;  ///< in what the fuzzer writes
+constexpr int most_requests = 10'000;  ///< in the input
 
-/// What is answered must be JSON, a message a line; a time that does not come is made to come.
+/// Checks that answers are JSON, one message a line. Ends requests that wait for a time that does not come.
 void read_as_jsonrpc(Bytes bytes) {
   jsonrpc::testing::Dialogue dialogue;
   const auto check = [&](const std::string& said) {
@@ -34,7 +34,7 @@ void read_as_jsonrpc(Bytes bytes) {
   }
   dialogue.service.disconnected(0);
   for (int requests = 0; requests < most_requests && dialogue.service.clients() > 0; ++requests) {
-    dialogue.service.time_was_set(0);  // ends what waits for a time or a pause
+    dialogue.service.time_was_set(0);  // ends requests that wait for a time or a pause
     dialogue.attend();
     dialogue.next_step();
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MJCF, as a model and as a world, through the parser process.
+// MJCF as a model and as a world, read by the parser process.
 #include "core/robot_tree.hpp"
 #include "core/world_model.hpp"
 #include "plugins/common/parser_process/ask.hpp"
@@ -10,7 +10,7 @@ namespace muro::fuzz {
 
 namespace {
 
-/// What the parser process makes of the file.
+/// Reads the file with the parser process.
 template <class Builder>
 void read_mjcf(const char* service, const std::string& path, Builder& builder) {
   parser_process::Writer request;

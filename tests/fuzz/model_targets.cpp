@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models and worlds: what a reader lets pass, the host can use.
+// Models and worlds: the host can use whatever a reader accepts.
 #include "core/robot_tree.hpp"
 #include "core/world_model.hpp"
 #include "muro/algorithm.hpp"
@@ -34,7 +34,7 @@ void read_as_urdf(Bytes bytes) {
   check(tree);
 }
 
-/// As a model and as a world.
+/// Reads SDFormat as a model and as a world.
 void read_as_sdf(Bytes bytes) {
   RobotTree tree;
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Part files: as a file of any plugin, and as a device of sensor.error, which then reads something.
+// Part files: read as a file of any plugin, and as a device of sensor.error, which then gives readings.
 #include <cmath>
 
 #include "muro/algorithm.hpp"
@@ -14,7 +14,7 @@ namespace muro::fuzz {
 
 namespace {
 
-/// A scenario that gives nothing but the part.
+/// Returns the values of a scenario that gives nothing but the part.
 std::vector<ParameterValue> defaults() {
   std::vector<ParameterValue> values;
   for (const Parameter& p : error_parameters)
@@ -22,12 +22,12 @@ std::vector<ParameterValue> defaults() {
   return values;
 }
 
-/// Some readings of a device whose errors a section has: finite numbers, within its limits.
+/// Checks some readings of a device with the errors of a section: finite numbers, within its limits.
 void read_with(const PartSection& section, ReadingForm form, std::size_t components) {
   static const std::vector<ParameterValue> values = defaults();
   const Parameters none(values);
   const ErrorSettings settings = settings_of(GivenErrors(none, &section), {section.reading, components, form});
-  if (settings.delay > 1) return;  // a long line takes long
+  if (settings.delay > 1) return;  // a long delay line takes long
   const bool has_orientation = form == ReadingForm::orientation;
   const ErrorChain chain(settings, components, 0.01, 1,
                          has_orientation ? ErrorChain::Form::with_orientation : ErrorChain::Form::numbers);

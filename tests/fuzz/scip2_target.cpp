@@ -13,7 +13,7 @@ namespace {
 
 using namespace scip2;
 
-/// A device whose client writes line by line, while time passes.
+/// A device whose client writes line by line while time passes.
 class Scanner final : public DeviceHost {
  public:
   explicit Scanner(const Model& model) : device_(model), memory_(device_.state_size() / 8 + 1) { advance(0); }
@@ -40,7 +40,7 @@ class Scanner final : public DeviceHost {
       begin = end + 1;
     }
     require(lines >= 3, "a reply lacks echo or status");
-    // the command and its status, whose digits would count for nothing
+    // the command and its status, with letters instead of digits, because outcomes ignore digits
     std::string said(bytes.substr(0, 2));
     for (const char c : bytes.substr(bytes.find('\n') + 1, 2)) said += c >= '0' && c <= '9' ? char(c - '0' + 'a') : c;
     outcome(said);

@@ -35,10 +35,10 @@ const std::vector<Target>& targets() {
 
 namespace {
 
-/// libFuzzer looks at these as at counters of its own.
+/// Counters of our own, which libFuzzer reads like its own.
 __attribute__((used, section("__libfuzzer_extra_counters"))) volatile std::uint8_t outcomes[1 << 12];
 
-/// Removed at the end of the process that made it.
+/// A folder that is removed at the end of the process that made it.
 class Folder {
  public:
   Folder() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is fuzzed: each target reads bytes as the program reads what others wrote.
+// Targets of fuzzing: each reads bytes as the program reads data from elsewhere.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ namespace muro::fuzz {
 using Bytes = std::span<const std::uint8_t>;
 
 struct Target {
-  const char* name;  ///< and that of the folder with its corpus
-  /// Returns, whatever the bytes are. What it must not do ends the process: crash, hang, take too much memory, fail an
-  /// assertion; so does an exception that is neither muro::Error nor SetupError.
+  const char* name;  ///< also the name of the folder with its corpus
+  /// Returns for any bytes. A fault ends the process: a crash, a hang, too much memory, a failed assertion, or an
+  /// exception that is neither muro::Error nor SetupError.
   void (*run)(Bytes);
 };
 const std::vector<Target>& targets();
@@ -34,14 +34,14 @@ void read_as_lines(Bytes);
 void read_as_frames(Bytes);
 void read_as_part(Bytes);
 void read_as_scip2(Bytes);
-void read_as_fmu(Bytes);   ///< where muro is built with controller.fmu
-void read_as_mjcf(Bytes);  ///< where muro is built with reader.mjcf
+void read_as_fmu(Bytes);   ///< only in builds with controller.fmu
+void read_as_mjcf(Bytes);  ///< only in builds with reader.mjcf
 
-/// A file of this process for what reads files: the bytes under a name in a folder of its own.
+/// Writes the bytes to a file in a folder of this process and returns its path.
 std::string file_with(Bytes bytes, const std::string& name);
 
-/// What an input has led to, such as a message: libFuzzer keeps inputs that lead to something new. Numbers, paths and
-/// what is quoted make no difference. Ends the process where the text is empty.
+/// Reports an effect of the input, such as a message: libFuzzer keeps inputs that have new effects. Numbers, paths and
+/// quoted text make no difference. Ends the process if the text is empty.
 void outcome(std::string_view text);
 
 /// Ends the process with the text unless `fine`.

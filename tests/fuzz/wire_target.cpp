@@ -8,7 +8,7 @@ namespace muro::fuzz {
 
 namespace {
 
-/// A client whose bytes come one behind the other, while time passes.
+/// A client whose bytes come one after the other, while time passes.
 class Conversation {
  public:
   explicit Conversation(const wire::Protocol& protocol) : framing_(protocol.framing()), bench_(protocol) {}
@@ -24,7 +24,7 @@ class Conversation {
       bytes.remove_prefix(size);
     }
   }
-  /// All that was said to the client.
+  /// Ends the conversation and returns all that was sent to the client.
   std::string end() {
     heard_ += bench_.run(8);
     bench_.service.disconnected(1);
@@ -39,7 +39,7 @@ class Conversation {
   bool is_first_ = true;
 };
 
-/// The input as pieces "type, sequence, format, length, payload" becomes frames that are whole.
+/// Returns whole frames made from the input, which has pieces "type, sequence, format, length, payload".
 std::string as_frames(std::string_view bytes) {
   std::string frames;
   while (bytes.size() >= 4) {

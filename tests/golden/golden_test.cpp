@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What runs compute is what the files of hashes say, bit for bit: a change that is meant to change no result changes
-// none. One that is meant to writes the files anew (record.sh), and says why.
+// Runs give exactly the hashes in the files. A change that is not meant to change results must not change them. A
+// change that is meant to change results writes the files anew (record.sh), and gives the reason.
 //
-// every_machine.hashes is of scenes in which muro computes all: every machine meets it, with any instruction set and
-// any C library. examples.hashes is of examples with engines, whose sines and exponentials are those of glibc for
-// x86-64 processors with FMA. What is drawn (cameras, lasers by the z-buffer) is left out, since it depends on the
-// driver.
+// every_machine.hashes has scenes in which muro computes everything: every machine gives these hashes, with any
+// instruction set and any C library. examples.hashes has examples with engines, whose sines and exponentials are those
+// of glibc for x86-64 processors with FMA. Drawn pictures (cameras, lasers by the z-buffer) are left out, since they
+// depend on the driver.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +33,7 @@ struct GoldenRun {
   std::string path() const { return std::string(MURO_TEST_SOURCE_DIR "/") + scenario; }
 };
 
-/// A line "SCENARIO DURATION" begins a run; those that follow it are "KEY CLASS HASH".
+/// Returns the runs of a file. A line "SCENARIO DURATION" begins a run; lines "KEY CLASS HASH" follow it.
 std::vector<GoldenRun> golden_runs(const std::string& hashes) {
   std::vector<GoldenRun> runs;
   std::ifstream file(MURO_TEST_SOURCE_DIR "/tests/golden/" + hashes);
@@ -80,7 +80,7 @@ void expect_hashes_here(const GoldenRun& golden) {
   expect_hashes(golden, test::hashes_by_key(test::property_hashes(built.simulation->world())));
 }
 
-/// In a process of its own that begins with `variables`.
+/// Runs in a process of its own with the environment variables `variables`.
 void expect_hashes_with(const std::string& variables, const GoldenRun& golden) {
   SCOPED_TRACE(variables);
   const test::ScratchFolder folder;
@@ -108,7 +108,7 @@ TEST_P(EveryMachine, MeetsTheHashesWithPacksOfAvx2) {
   expect_hashes_with("MURO_ISA=avx2", GetParam());
 }
 
-/// That GLIBC_TUNABLES does what the test above rests on.
+/// Checks the effect of GLIBC_TUNABLES, which the test above needs.
 TEST(CLibrary, HasOtherElementaryFunctionsWithoutFma) {
   if (!__builtin_cpu_supports("fma")) GTEST_SKIP() << "this processor has no other ones";
   const auto with = test::run_command(MURO_PROPERTY_HASHES " --c-library"),

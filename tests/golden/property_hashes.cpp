@@ -12,7 +12,7 @@ namespace muro::test {
 
 namespace {
 
-/// In the order of Slot::Class.
+/// Names in the order of Slot::Class.
 constexpr const char* class_names[] = {"unknown", "constant", "variable", "derived"};
 
 std::string text_of(std::uint64_t hash) {
@@ -21,7 +21,7 @@ std::string text_of(std::uint64_t hash) {
   return text;
 }
 
-/// The hash of what a property holds now; none where nothing has been set aside for it.
+/// Returns the hash of the present value of a property, or nothing if it has no memory.
 std::optional<std::uint64_t> hash_of(const Slot& slot, std::size_t element_size) {
   if (slot.multiplicity == Multiplicity::list && slot.place) {
     const auto& list = *static_cast<const ListHeader*>(slot.place);
@@ -31,7 +31,7 @@ std::optional<std::uint64_t> hash_of(const Slot& slot, std::size_t element_size)
     return hash_bytes(slot.array->data, slot.array->size * element_size, 0);
   if (slot.place) return hash_bytes(slot.place, element_size, 0);
   if (slot.contributions.empty()) return std::nullopt;
-  std::uint64_t h = 0;  // A sum is its contributions, one after the other.
+  std::uint64_t h = 0;  // A sum is hashed as its contributions, one after the other.
   for (const void* contribution : slot.contributions) h = hash_bytes(contribution, element_size, h);
   return h;
 }

@@ -4,8 +4,8 @@
 //     property_hashes SCENARIO.yaml --duration SECONDS [--threads N] [--by-key] --out FILE.json
 //
 // A line is "object:key": "CLASS HASH", where CLASS is constant, variable or derived. Two versions of muro that compute
-// the same write the same file. `property_hashes --c-library` prints a hash of what elementary functions of the C
-// library give. Exit codes: 0 done, 1 the simulation failed, 2 wrong input.
+// the same write the same file. `property_hashes --c-library` prints a hash of results of elementary functions of the C
+// library. Exit codes: 0 done, 1 the simulation failed, 2 wrong input.
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -49,7 +49,7 @@ Options parse(int argc, char** argv) {
       }
     }
   } catch (const std::logic_error&) {
-    options = {};  // What should be a number is none.
+    options = {};  // An argument that should be a number is not one.
   }
   if (options.scenario.empty() || options.out.empty() || !(options.duration >= 0))
     throw SetupError(

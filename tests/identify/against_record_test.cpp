@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `muro compare --against`: a scenario on the commands of a recording.
+// `muro compare --against`: a scenario with the commands of a record.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ test::CommandResult compare_against(const std::string& arguments) {
                            arguments);
 }
 
-/// The cells of the column `mean_error`.
+/// Returns the cells of the column `mean_error`.
 std::vector<double> mean_errors(const std::string& csv) {
   std::vector<double> all;
   std::istringstream in(csv);
@@ -48,7 +48,8 @@ TEST(CompareAgainst, TheMotorOfARecordingMissesItLeast) {
   EXPECT_GT(error_with(" --set robots.bench.motor.part=mx64"), 3 * own);
 }
 
-/// A pendulum whose coil is open, that starts with `speed` at 0.3 rad: M1 without friction of its own, by small steps.
+/// Returns a record of a pendulum with an open coil that starts at 0.3 rad with `speed`: M1 without friction, small
+/// steps.
 std::string swinging(double speed, double duration, double gap_from = 1e9, double gap_to = 1e9, bool repeats = false) {
   std::string text = "# p_gain: 200\ntime,position,goal,supply_voltage,torque_enable\n";
   double q = 0.3, w = speed;
@@ -100,7 +101,7 @@ TEST(CompareAgainst, GapsAreToldAndNotBridged) {
 }
 
 TEST(CompareAgainst, PositionsAreThoseOfTheTimesOfTheSamples) {
-  // samples every 3.37 ms against steps of 10 ms: the position of a step would be 0.02 rad off at 4 rad/s
+  // samples every 3.37 ms, steps of 10 ms: the position of a step would be 0.02 rad off at 4 rad/s
   const test::ScratchFolder folder;
   const std::string record = folder.file("r.csv", swinging(4, 0.3));
   const auto r = compare_against("--against " + record + " --csv " + folder.path("t.csv") + m1 +

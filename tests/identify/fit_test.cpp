@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The search, against records whose motor is known.
+// The search, with records of known motors.
 #include <gtest/gtest.h>
 
 #include "host/tools/identify/identification.hpp"
@@ -59,7 +59,7 @@ TEST_F(MotorFit, FindsAMotorFromItsOwnNoisyRecord) {
 }
 
 TEST_F(MotorFit, FindsALargeMotorAndTheGainOfItsFirmware) {
-  // MX-64 with 1 kg at 0.15 m at 15 V, sampled at 100 Hz
+  // MX-64 with 1 kg at 0.15 m and 15 V, sampled at 100 Hz
   MotorEstimate mx64;
   mx64.motor = {.kt = 1.622,
                 .resistance = 3.949,
@@ -94,7 +94,7 @@ TEST_F(MotorFit, PredictsWithM4WithinTheNoise) {
 }
 
 TEST_F(MotorFit, OfAPartOfTheRecordsFindsTheirMotor) {
-  // the whole has a record of a weaker motor, which the part leaves out
+  // all records together include one of a weaker motor; the part does not
   test::SimulatedBench bench{.motor = xl330_m1()}, weak = bench;
   weak.motor.motor.resistance *= 1.5, weak.motor.offset = -0.05;
   bench.duration = weak.duration = 3;
@@ -126,7 +126,7 @@ TEST_F(MotorFit, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST_F(MotorFit, SaysWhatRecordsDoNotTell) {
-  // One slow move: kt and viscous friction both brake, and nothing tells them apart.
+  // One slow motion: both kt and viscous friction brake, and nothing separates their effects.
   test::SimulatedBench bench{.motor = xl330_m1()};
   bench.duration = 3;
   const MotorRecord slow = bench.record(800, [](double t) { return 0.3 * std::sin(t); });
@@ -135,7 +135,7 @@ TEST_F(MotorFit, SaysWhatRecordsDoNotTell) {
   EXPECT_FALSE(fit_motor({slow}, s).warnings.empty());
 }
 
-/// Two records, the motor cold and warm; its resistance grows by 1 % a degree from 30 on.
+/// Two records of the motor, cold and warm; its resistance grows by 1 % a degree from 30 on.
 std::vector<MotorRecord> cold_and_warm() {
   std::vector<MotorRecord> all;
   for (const double temperature : {28.0, 38.0}) {

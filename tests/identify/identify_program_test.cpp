@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `muro identify` as a user calls it.
+// `muro identify` as a user runs it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ class IdentifyProgram : public testing::Test {
     }
   }
   std::string text_of(const std::string& name) const { return test::text_of(folder.path(name)); }
-  /// `arguments`: @ stands for the folder.
+  /// `arguments`: @ is replaced by the folder.
   test::CommandResult run(std::string arguments) const {
     for (std::size_t at = 0; (at = arguments.find('@', at)) != std::string::npos;)
       arguments.replace(at, 1, folder.path(""));
@@ -75,7 +75,7 @@ TEST_F(IdentifyProgram, WritesAReportAPictureAndAFragmentThatRuns) {
                   fragment);
   const auto s = run("run @s.yaml");
   EXPECT_EQ(s.exit_code, 0) << s.output;
-  // a run with the fragment is as far from the records as identify says
+  // a run with the fragment has the errors that identify reports
   const auto against = run("compare @s.yaml --against @r0.csv @r1.csv @r3.csv @r2.csv --csv @t.csv");
   ASSERT_EQ(against.exit_code, 0) << against.output;
   std::istringstream table(text_of("t.csv"));
@@ -101,7 +101,7 @@ TEST_F(IdentifyProgram, TellsTheErrorOnRecordsThatItHasNotSeen) {
   double sum = 0;
   for (const auto& record : report["records"]) sum += record["unseen_mean_error"].get<double>() / 3;
   EXPECT_NEAR(report["validation"]["mean_error"].get<double>(), sum, 1e-12);
-  // the same as naming the record
+  // equal to naming the record
   ASSERT_EQ(run(all + "--validate @r3.csv --report @v.json").exit_code, 0);
   const nlohmann::json named = nlohmann::json::parse(text_of("v.json"));
   EXPECT_EQ(named["validation"]["unseen"], "named_records");
@@ -110,7 +110,7 @@ TEST_F(IdentifyProgram, TellsTheErrorOnRecordsThatItHasNotSeen) {
 }
 
 TEST_F(IdentifyProgram, OfASingleRecordItPredictsTheLastQuarter) {
-  // an encoder that slips by 0.2 rad where the last quarter begins: the fit of what is before knows nothing of it
+  // an encoder slips by 0.2 rad at the start of the last quarter: the fit of the earlier part does not include it
   std::istringstream in(text_of("r1.csv"));
   std::string changed;
   for (std::string line; std::getline(in, line);) {
@@ -133,7 +133,7 @@ TEST_F(IdentifyProgram, OfASingleRecordItPredictsTheLastQuarter) {
 }
 
 TEST_F(IdentifyProgram, ARecordWhoseDutiesSayAnotherGainKeepsIt) {
-  // the same movements, the third by a firmware with twice the gain for each unit: it calls 400 what others call 800
+  // the same motions, the third by a firmware with twice the gain for each unit: its 400 is 800 elsewhere
   std::string third = text_of("r2.csv");
   third.replace(third.find("800"), 3, "400");
   std::istringstream in(third);

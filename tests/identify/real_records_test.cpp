@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The twelve recordings of an XL-330 (Rhoban/bam), where they lie beside the repository.
+// The twelve records of an XL-330 (Rhoban/bam), if they are next to the repository.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ TEST_F(SlowRealRecords, M4PredictsThemWithin36Milliradians) {
 }
 
 TEST_F(SlowRealRecords, TheirTemperaturesTellMoreThanAnyFriction) {
-  // P 800 was recorded at 33 to 39 degrees Celsius, the rest at 28 to 30
+  // P 800 was recorded at 33 to 39 degrees Celsius, the others at 28 to 30
   FitSettings s = settings(FrictionKind::m4);
   s.fit_temperature = true;
   EXPECT_LT(fit_motor(records, s).mean_error, 0.024);

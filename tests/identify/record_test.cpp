@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Records as CSV and JSON, right and wrong.
+// Records as CSV and JSON, correct and wrong ones.
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"

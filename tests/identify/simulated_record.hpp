@@ -9,7 +9,7 @@
 
 namespace muro::test {
 
-/// A record of a motor with a pendulum, as it would be taken: positions with noise of `sigma` (rad).
+/// Records of a motor with a pendulum, as on a real bench: positions have noise of `sigma` (rad).
 struct SimulatedBench {
   host::MotorEstimate motor;  ///< `gain`: for each unit of the P gain
   host::BenchLoad load{.mass = 0.49, .length = 0.1};
@@ -48,7 +48,7 @@ struct SimulatedBench {
     return r;
   }
 
-  /// Four records with two P gains; in one the torque goes off.
+  /// Returns four records with two P gains; in one the torque is switched off.
   std::vector<host::MotorRecord> records(double low_gain, double high_gain) const {
     const auto wave = [](double t) { return M_PI / 2 * std::sin(t) + 0.5 * std::sin(5 * t) * std::sin(2 * t); };
     const auto chirp = [](double t) { return std::sin(t * t); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The example of levels: robots that different motions move, in one scene, watched from outside.
+// The example of levels: robots with different motions in one scene, observed from outside.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -30,7 +30,7 @@ TEST(Levels, RoversOfAllLevelsPushABallAndBoxesAndEachOther) {
   ASSERT_EQ(robots.size(), 11u);
   std::vector<Vec3> start;
   for (const RobotView* r : robots) start.push_back(s.world().value(r->base(), keys::pose).position);
-  std::set<std::pair<std::string, std::string>> pairs;  // robots whose contact the contact algorithm answered for
+  std::set<std::pair<std::string, std::string>> pairs;  // robots whose contact the contact algorithm resolved
   for (int k = 0; k < 400; ++k) {
     s.run_for(0.05);
     for (const RobotView* r : robots) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `muro check` says of models.
+// Output of `muro check` about models.
 #include <gtest/gtest.h>
 
 #include "tests/support/complaint.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 const std::string muro_program = std::string("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ") + MURO_PROGRAM;
 
-/// A chain of `joints` joints; `of_link`: what stands in each of its links.
+/// Returns a chain of `joints` joints; `of_link`: content of each of its links.
 std::string chain(int joints, const std::string& of_link, const std::string& limit = "lower='-2' upper='2'") {
   std::string urdf = "<robot name='chain'><link name='base'/>";
   for (int i = 0; i < joints; ++i) {
@@ -30,7 +30,7 @@ constexpr const char* shape = "<collision><geometry><sphere radius='0.05'/></geo
 struct Check {
   test::ScratchFolder folder;
 
-  /// Its output, warnings and notes included.
+  /// Returns its output, with warnings and notes.
   std::string of(const std::string& robots, const std::string& arguments = "", int exit_code = 0) const {
     const std::string file = folder.file("s.yaml", "world: {objects: {ground: {shape: plane}}}\nrobots:\n" + robots);
     const auto result = test::run_command(muro_program + " check " + file + " " + arguments);

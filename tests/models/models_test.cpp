@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Descriptions as others write them: models.txt says what becomes of each. What is usable is read, connects at
-// motion.point and runs; all that is lost is told, and nothing else.
+// Descriptions by other people: models.txt gives the result of each. Everything usable is read, connects to
+// motion.point and runs. Everything lost is reported, and nothing else.
 #include "tests/models/model_table.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ using test::ModelCase;
 
 std::string path_of(const ModelCase& c) { return test::models_folder() + "/" + c.file; }
 
-/// What building a scenario gave: a simulation, or lines of errors.
+/// Result of building a scenario: a simulation, or lines of errors.
 struct Outcome {
   BuiltScenario built;
   std::vector<std::string> said;
@@ -47,7 +47,7 @@ Outcome outcome_of(const ModelCase& c) {
 
 bool is_note(const std::string& line) { return line.find(": note: ") != line.npos; }
 
-/// Each expected part in a line of its own, and no line but notes without one.
+/// Checks that each expected part is in a line of its own, and that other lines are notes.
 void expect_said(const ModelCase& c, std::vector<std::string> lines) {
   for (const std::string& part : c.said) {
     const auto found =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The descriptions of models.txt at every motion that forces move: they stand, or fall as bodies do, or are refused in
-// one clear sentence. Nothing is thrown, nothing sinks into the ground.
+// The descriptions of models.txt in every motion by forces: they stand, fall freely, or are refused in one clear
+// sentence. No robot is thrown or sinks into the ground.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 constexpr double g = 9.81;        // m/s^2
 constexpr double duration = 1;    // s
 constexpr double deepest = 0.01;  // m
-constexpr double drift = 0.5;     // m/s, beyond free fall: links that swing
+constexpr double drift = 0.5;     // m/s, beyond free fall: of links that swing
 
 struct ModelAtMotion {
   std::string file, motion;
@@ -38,7 +38,7 @@ std::vector<ModelAtMotion> models_at_motions() {
   return all;
 }
 
-/// Above the plane z = 0, m.
+/// Returns the height of the lowest point above the plane z = 0, m.
 double lowest_point(const World& world, const RobotView& robot, MeshCorners& meshes) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Link& link : robot.links) {

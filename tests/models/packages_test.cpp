@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `packages:` of a scenario: where package://NAME and model://NAME are.
+// `packages:` of a scenario: the folders of package://NAME and model://NAME.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -40,7 +40,7 @@ class PackagesOfAScenario : public testing::Test {
   BuiltScenario built(const std::string& packages, const std::string& rest) {
     return build(read_scenario(folder_.file("s.yaml", packages + rest), {}), test::plugins());
   }
-  /// The mesh of the only visual shape of the robot; empty when there is none.
+  /// Returns the mesh of the only visual shape of the robot, or "" if it is not found.
   std::string mesh(const std::string& model, const std::string& packages) {
     const BuiltScenario b = built(packages, "robots: {r: {model: " + model + "}}\n");
     const World& world = b.simulation->world();

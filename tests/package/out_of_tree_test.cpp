@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plugins that were built outside muro's tree are found, loaded and right. Their folders come from the tests
-// package.*, which run before.
+// Plugins that were built outside muro's tree are found, loaded and correct. The tests package.*, which run before,
+// give their folders.
 #include <gtest/gtest.h>
 
 #include "tests/support/bodies.hpp"
@@ -24,7 +24,7 @@ TEST_P(OutOfTree, BatteryIsDrainedByIdlePowerAndRollingResistance) {
                  {{"capacity", 1000.0}, {"idle_power", 5.0}, {"rolling_resistance", 0.05}, {"efficiency", 0.5}});
   simulation.build();
   simulation.world().value(rover.base(), keys::command_twist).linear = Vec3(2, 0, 0);
-  // to 10 s and the run that is due at that instant: 5 W + 0.05 * 20 kg * 9.80665 m/s^2 * 2 m/s / 0.5
+  // to 10 s, with the run that is due then: 5 W + 0.05 * 20 kg * 9.80665 m/s^2 * 2 m/s / 0.5
   simulation.run_until(10'000'000'001);
   EXPECT_NEAR(simulation.world().value(rover.base(), energy), 1000 - 10 * (5 + 0.05 * 20 * 9.80665 * 2 / 0.5), 1e-9);
   simulation.run_for(100);

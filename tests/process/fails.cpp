@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Algorithms that fail for one robot of many: the one whose name ends in 7.
+// Algorithms that fail for one robot of many: for the one whose name ends in 7.
 #include "muro/plugin.hpp"
 #include "muro/toolkit/per_robot.hpp"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Control code that does what its argument `does` says, in step 3 of robot ball_1; `when=create`: at once. */
+ * Control code with the fault that its argument `does` names, in step 3 of robot ball_1; `when=create`: in create. */
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>

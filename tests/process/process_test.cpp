@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the program says and how it ends when foreign code crashes, hangs, leaves or throws, and when it is interrupted.
+// Messages and exit of the program when foreign code crashes, hangs, exits or throws, and when a run is interrupted.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -35,7 +35,7 @@ struct SteeredRun {
                                           ", properties: [\"ball_1/body:pose\"]}\n");
     result = run_command(program + " run " + scenario + " --duration 1 " + options);
   }
-  /// Everything that a message says of the call: `function` is that of the library.
+  /// Returns the description of the call in a message; `function`: of the library.
   std::string call(const std::string& what, const std::string& function, const std::string& time) const {
     return scenario + ":8:14: ball.control (controller.library), robot `ball_1`, " + what + " in `" + function +
            "` of " CONTROLLERS "/misbehaves.so at t = " + time + " s";
@@ -53,7 +53,7 @@ TEST_P(Crashing, ControlCodeIsNamedWithRobotAndTime) {
   const auto& [deed, text, signal] = GetParam();
   const SteeredRun run(std::string("does=") + deed);
   EXPECT_SAYS(run.result.output, run.call("crashed", "step", "0.200000") + ": " + text);
-  EXPECT_SAYS(run.result.output, "controllers/misbehaves.so(");  // in the stack of calls
+  EXPECT_SAYS(run.result.output, "controllers/misbehaves.so(");  // in the call stack
 #ifndef MURO_SANITIZED
   EXPECT_EQ(run.result.exit_code, 128 + signal) << run.result.output;
   EXPECT_TRUE(std::filesystem::exists(run.record + ".part"));
@@ -189,7 +189,7 @@ TEST(Isolation, LeavesNoProcessOfControlCodeWhenTheProgramIsKilled) {
   EXPECT_SAYS(result.output, "after 0\n") << "also of the one that hangs";
 }
 
-/// As FMI programs write the results of 0 to 1 s at 10 Hz: 11 rows.
+/// FMI programs write results from 0 to 1 s at 10 Hz in 11 rows, with one at the end.
 TEST(EndOfARun, HasARowWhereThatIsWanted) {
   const test::ScratchFolder scratch;
   const std::string record = scratch.path("record.csv");
@@ -231,7 +231,7 @@ TEST(Interrupt, ForTheSecondTimeEndsAtOnceAndSaysWhatRan) {
 TEST(StandardError, ThatNobodyReadsChangesNoExitCode) {
   const SteeredRun run("does=interrupts");
   const auto exit_code = [&](const std::string& arguments) {
-    // the reader has left when the program begins
+    // the reader has ended before the program begins
     return run_command("{ { sleep 0.2; " + program + " " + arguments +
                        "; echo $? >&3; } 2>&1 >/dev/null | true; } 3>&1")
         .output;
@@ -241,7 +241,7 @@ TEST(StandardError, ThatNobodyReadsChangesNoExitCode) {
   EXPECT_EQ(exit_code("run " + run.scenario + " --duration 1"), "130\n");
 }
 
-/// Balls with a sensor of this kind, which fails for ball_7.
+/// Runs balls with a sensor of this kind, which fails for ball_7.
 test::CommandResult run_with_eye(const test::ScratchFolder& scratch, const std::string& sensor) {
   const std::string file =
       scratch.file("s.yaml",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The library that docs/controllers.md shows compiles, and steers vehicles.
+// The library shown in docs/controllers.md compiles and steers vehicles.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -9,8 +9,8 @@
 namespace muro {
 namespace {
 
-/// The library that the page shows in a language, built by the command that it shows, in a run; `change` is made to the
-/// source.
+/// Builds the library that the page shows in a language, by the command that the page shows, and runs it; `change`: of
+/// the source.
 test::CommandResult run_as_shown(const std::string& language, const std::string& compiler,
                                  const std::pair<std::string, std::string>& change = {}) {
   const std::string page = test::text_of(MURO_TEST_SOURCE_DIR "/docs/controllers.md");

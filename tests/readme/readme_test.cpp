@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The README and the documents agree with the program: generated pages, links, and every command that is shown.
+// The README and the documents agree with the program: generated pages, links, and every command shown.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using test::text_of;
 const std::string root = MURO_TEST_SOURCE_DIR "/";
 const std::string environment = "MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ";
 
-/// Pages in Markdown, relative to the root.
+/// Returns the pages in Markdown, relative to the root.
 std::vector<std::string> pages() {
   std::vector<std::string> all = {"README.md", "CONTRIBUTING.md", "sdk/README.md"};
   for (const fs::directory_entry& e : fs::directory_iterator(root + "docs"))
@@ -34,7 +34,7 @@ std::vector<std::string> pages() {
   return all;
 }
 
-/// The shell commands of a page: lines that begin with the program, and blocks marked `sh`.
+/// Returns the shell commands of a page: lines that begin with the program, and blocks marked `sh`.
 std::vector<std::string> commands_of(const std::string& page) {
   std::vector<std::string> all;
   std::istringstream text(text_of(root + page));
@@ -61,7 +61,7 @@ std::vector<std::string> pages_with_commands() {
   return all;
 }
 
-/// The command as a test runs it: for a short time, at any speed, with a window on a virtual display.
+/// Returns the command in the form for a test: for a short time, at any speed, with a window on a virtual display.
 std::string shortened(std::string command) {
   command = std::regex_replace(command, std::regex(R"( (--duration|--speed) [^ \n]+)"), "");
   command = std::regex_replace(command, std::regex(R"(build/bin/muro (run|compare) )"), "$& --duration 0.5 ");
@@ -71,7 +71,7 @@ std::string shortened(std::string command) {
   return command;
 }
 
-/// A folder that looks like the root of the repository after a build; files that commands write stay in it.
+/// A folder that looks like the root of the repository after a build. Files that commands write stay in this folder.
 class Checkout {
  public:
   Checkout() {
@@ -156,7 +156,7 @@ TEST(Documents, TheSdksPageListsEachHeader) {
   }
 }
 
-/// The anchors of a page's headings, as GitHub makes them.
+/// Returns the anchors of a page's headings, as GitHub makes them.
 std::set<std::string> anchors_of(const std::string& page) {
   std::set<std::string> anchors;
   std::istringstream text(text_of(root + page));
@@ -194,7 +194,7 @@ TEST(Documents, EveryFileTheyLinkToExists) {
   for (const std::string& page : pages()) {
     std::string text = text_of(root + page);
     ASSERT_FALSE(text.empty()) << page;
-    // a lambda in an example is no link
+    // a lambda in an example is not a link
     for (std::size_t begin = 0; (begin = text.find("```", begin)) != std::string::npos;)
       text.erase(begin, text.find("```", begin + 3) + 3 - begin);
     for (auto it = std::sregex_iterator(text.begin(), text.end(), link); it != std::sregex_iterator(); ++it) {

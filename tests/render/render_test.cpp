@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures as a user makes them, with `muro render`; read by libpng.
+// Pictures that a user makes with `muro render`; read by libpng.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -60,7 +60,7 @@ robots: {ball: {shape: {sphere: 1}, mass: 1, texture: green.png, at: {x: 5, y: 4
     if (std::max({p[0], p[1], p[2]}) - std::min({p[0], p[1], p[2]}) < 40) return "white";
     return p[0] > p[1] && p[0] > p[2] ? "red" : p[1] > p[2] ? "green" : "blue";
   };
-  // the face of the box is 4 m away and 2 m to the right, a quarter 37 pixels wide
+  // the face of the box is 4 m away and 2 m to the right; a quarter is 37 pixels wide
   EXPECT_STREQ(color(200, 25), "red");
   EXPECT_STREQ(color(250, 25), "green");
   EXPECT_STREQ(color(200, 75), "blue");
@@ -174,7 +174,7 @@ TEST(Render, TellsWhatIsWrongAndWritesNothing) {
   EXPECT_TRUE(test::text_of(file).empty());
 }
 
-/// A substitute for ffmpeg: records its arguments, and copies its input to the file of the video.
+/// Makes a substitute for ffmpeg, which records its arguments and copies its input to the file of the video.
 std::string stand_in(const test::ScratchFolder& folder) {
   std::filesystem::create_directory(folder.path("bin"));
   const std::string file = folder.file("bin/ffmpeg", "#!/bin/sh\necho \"$*\" >" + folder.path("asked") +
@@ -203,7 +203,7 @@ TEST(Render, HandsTheFramesOfAVideoToFfmpeg) {
   EXPECT_NE(frames.substr(0, frame), frames.substr(5 * frame)) << "robots move";
 }
 
-/// A red box that drifts along x, 20 m away from another one after 10 s.
+/// Returns a scenario in which a red box moves along x. After 10 s it is 20 m away from another box.
 std::string drifting(const test::ScratchFolder& folder) {
   return folder.file("drift.yaml",
                      "duration: 10\nworld: {gravity: [0, 0, 0], objects: {ground: {shape: plane, at: {z: -0.1}}}}\n"

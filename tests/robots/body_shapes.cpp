@@ -35,7 +35,7 @@ std::vector<Vec3> of_collada(const std::string& text) {
   return points;
 }
 
-/// How far below its centre a shape reaches when its z axis stands at `up` in the axes of the shape.
+/// Returns how far a shape reaches below its centre if `up` is the vertical in the axes of the shape.
 double reach_down(const Shape& s, const Vec3& up) {
   switch (s.kind) {
     case ShapeKind::sphere:

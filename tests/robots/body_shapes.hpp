@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of a robot is solid, as the tests see it: shapes by link, and how low they reach.
+// Solid parts of a robot, as the tests compute them: shapes by link, and the height of their lowest point.
 #pragma once
 
 #include <span>
@@ -16,20 +16,20 @@ struct Solid {
   std::vector<Vec3> vertices;  ///< of a mesh, m, in the frame of the shape
 };
 
-/// All collision shapes of a model. Meshes whose file `vertices_of` does not understand are left out.
+/// Returns all collision shapes of a model. Leaves out meshes whose file `vertices_of` cannot read.
 std::vector<Solid> solids_of(const RobotTree& tree);
 
-/// Corners of the mesh in a file: text STL, OBJ, or COLLADA of one geometry in metres with z up. Empty when it is
-/// nothing of these.
+/// Returns the corners of the mesh in a file: text STL, OBJ, or COLLADA with one geometry in metres and z up. Empty for
+/// other files.
 std::vector<Vec3> vertices_of(const std::string& path);
 
-/// Height (m) of the lowest point of all shapes, by the poses of the links in the world; infinite without shapes.
+/// Returns the height (m) of the lowest point of all shapes, from the poses of the links; infinite without shapes.
 double lowest_point(std::span<const Solid> solids, std::span<const Pose> poses, bool with_meshes);
 
-/// Positions (rad or m) of all joints, one per link, as near to 0 as their limits allow; mimic joints after their
-/// leader.
+/// Returns positions (rad or m) of all joints, one per link, as near to 0 as their limits allow. Mimic joints follow
+/// their leader.
 std::vector<double> start_positions(const RobotTree& tree);
-/// Poses of all links, the base at `base`, joints at `positions`.
+/// Returns the poses of all links, with the base at `base` and joints at `positions`.
 std::vector<Pose> poses_of(const RobotTree& tree, const Pose& base, std::span<const double> positions);
 
 }  // namespace muro::robots

@@ -22,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// All that comes through `pipe` until its other end is closed; false: `end` came first.
+/// Reads all that comes through `pipe` until its other end is closed; false: the time `end` came first.
 bool read_until(Clock::time_point end, int pipe, std::string& text) {
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
@@ -37,7 +37,7 @@ bool read_until(Clock::time_point end, int pipe, std::string& text) {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// "fine", "odd", "refused" or "failed" in the first word.
+/// Returns the outcome: "fine", "odd", "refused" or "failed" as its first word.
 std::string outcome_of(const Observations& seen) {
   if (!seen.refused.empty()) return "refused " + first_line(seen.refused);
   if (!seen.failure.empty()) return "failed " + first_line(seen.failure);
@@ -52,7 +52,7 @@ std::string outcome_of(const Observations& seen) {
   return text.str().empty() ? "fine " : "odd " + text.str().substr(2);
 }
 
-/// The worse of two outcomes.
+/// Returns the worse of two outcomes.
 std::string worse(const std::string& a, const std::string& b) {
   const auto rank = [](const std::string& s) {
     constexpr std::string_view order[] = {"fine", "odd", "refused", "failed"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs over descriptions that nobody has looked at: each in a process of its own, with a time limit.
+// Runs unknown descriptions, each in a process of its own, with a time limit.
 #pragma once
 
 #include <functional>
@@ -8,11 +8,11 @@
 
 namespace muro::robots {
 
-/// How a piece of work ended in a process of its own.
+/// Result of work in a process of its own.
 struct Isolated {
-  bool crashed = false;   ///< a signal, or an exit other than by returning
-  bool too_long = false;  ///< it was ended at the limit
-  std::string text;       ///< what the work returned, or how it crashed
+  bool crashed = false;   ///< by a signal, or by an exit without returning
+  bool too_long = false;  ///< it was stopped at the limit
+  std::string text;       ///< what the work returned, or the reason of the crash
 };
 /// Runs `work` in a child of this process for at most `limit` (s).
 Isolated isolated(const std::function<std::string()>& work, double limit);
@@ -24,8 +24,8 @@ struct CorpusCount {
   int failed = 0;   ///< crashed, not finite, or took too long
 };
 
-/// Runs every .urdf in `folder` and below in every motion, base free, joints passive and then in their default mode,
-/// for `duration` (s) each, and writes a table to `out`: outcome, motion, file, and what was seen.
+/// Runs every .urdf in `folder` and below in every motion for `duration` (s): base free, joints passive and then in
+/// their default mode. Writes a table to `out`: outcome, motion, file, and observations.
 CorpusCount run_corpus(const std::string& folder, double duration, double limit, std::ostream& out);
 
 }  // namespace muro::robots

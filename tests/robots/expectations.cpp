@@ -15,11 +15,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 const std::vector<Expectation>& all() {
   static const std::vector<Expectation> table = {
       {.robot = "balancer", .end = End::topples},
-      {.robot = "crane", .end = End::topples},  // its foundation stands on the ground and is not held by it
+      {.robot = "crane", .end = End::topples},  // its foundation stands on the ground and is not fixed to it
       {.robot = "ghost", .end = End::falls},
       {.robot = "limits", .without_effort = {"no_effort"}},
       {.robot = "meshes", .on_meshes = true},
-      // Its calves cannot be straight, so its rear feet are 3 cm behind its centre of mass: the impact throws it over.
+      // Its calves cannot be straight, so its rear feet are 3 cm behind its centre of mass: the impact makes it fall.
       {.robot = "quadruped_a1", .end = End::topples},
       {.robot = "rope", .end = End::balances, .long_chain = true},
       {.robot = "scales", .hold = 0.2},  // 0.01 N m against whiskers on a boom that stops from 1 m/s
@@ -29,15 +29,15 @@ const std::vector<Expectation>& all() {
   return table;
 }
 
-/// In the order of Check.
+/// Names and bounds in the order of Check.
 constexpr std::array<std::pair<std::string_view, double>, 9> default_bounds = {{
     {"below the ground at the end", 2e-3},
     {"below the ground at an impact", 0.01},
     {"outside of joint limits",
-     5e-3},                   // what 5 rad/s or m/s pass in a step: a stop acts from the step on that meets it
+     5e-3},                   // the way in a step at 5 rad/s or m/s: a stop acts from the step on that meets it
     {"energy gained", 2e-3},  // velocities of semi-implicit Euler are older by half a step: v h / 2
     {"mimic joints apart from their leader", 0.01},
-    {"driven joints moved", 0.05},  // by the impact, which is more than drives can take: they hold speeds, not places
+    {"driven joints moved", 0.05},  // by the impact, which is more than drives hold: they hold speeds, not positions
     {"moving at the end", 0.02},
     {"height unlike what it should be", 5e-3},
     {"base tilted", 0.05},
@@ -95,8 +95,8 @@ constexpr Exception exceptions[] = {
     {Check::height, "bullet", "biped", 0.02, "it leans, and its ankles turn by 0.15 rad/s"},
 };
 
-/// Robots that 50 iterations of motion.ode's solver `quick` are enough for. All others are held there to what must
-/// never happen alone, and to the rest with the default, which is `exact` for them.
+/// Robots for which 50 iterations of motion.ode's solver `quick` are enough. With this solver others are checked only
+/// for faults that must never happen; all other checks use the default, which is `exact` for them.
 constexpr std::string_view quick_serves[] = {"arm",     "balancer", "caster_base", "dual_arm",  "ghost", "kiwi",
                                              "mecanum", "meshes",   "pendulum",    "quadrotor", "rover"};
 constexpr std::string_view not_converged = "50 iterations of the solver `quick` do not converge; use `exact`";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Inertias that no body has, as files hold them.
+// Inertias in files that are impossible for a body.
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/rotations.hpp"
@@ -40,7 +40,7 @@ TEST_P(EveryMotion, TurnsABodyOfImpossibleInertiaAsAFlatOne) {
   s.use(GetParam(), 1000, s.all_robots());
   s.use_contacts();
   s.build();
-  // (1, 0.5, 0.5) kg m^2 and an energy of 1 J: no turn is faster than 2 rad/s. With 0.001 it would be 31 rad/s.
+  // (1, 0.5, 0.5) kg m^2 and an energy of 1 J: no spin is faster than 2 rad/s. With 0.001 it would be 31 rad/s.
   for (int i = 0; i < 50; ++i) {
     s.run_for(0.1);
     ASSERT_LT(s.twist(r).angular.norm(), 2.05) << 0.1 * i << " s";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every description against every motion by forces: it loads, stands or falls as it should, and stays finite.
+// Every description in every motion by forces: it loads, stands or falls as expected, and stays finite.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -23,7 +23,7 @@ class EveryRobot : public ::testing::TestWithParam<std::string> {
     EXPECT_LE(seen, bound_of(check, v.name, robot_).max) << name_of(check);
   }
 
-  /// Whatever drives it.
+  /// Checks that apply with any drive.
   void check_always(const Variant& v, const Observations& seen) const {
     EXPECT_LT(seen.norm_error, 1e-9);
     hold(Check::ground, v, -seen.lowest);
@@ -37,7 +37,7 @@ class EveryRobot : public ::testing::TestWithParam<std::string> {
     double speed = 0;
     for (const JointObservation& j : seen.joints) {
       if (std::count(expectation_.without_effort.begin(), expectation_.without_effort.end(), j.name) > 0) {
-        if (v.name != "simplified") {  // whose drives are without limits of effort unless it is told otherwise
+        if (v.name != "simplified") {  // drives of motion.simplified have no effort limits by default
           EXPECT_GT(std::abs(j.moved), 0.5) << j.name << ", whose drive has no effort";
         }
         continue;
@@ -56,7 +56,7 @@ class EveryRobot : public ::testing::TestWithParam<std::string> {
     if (rests || fixed) hold(Check::rest, v, std::max(speed, seen.speed));
   }
 
-  /// Of a free base.
+  /// Checks the final state of a robot with a free base.
   void check_end(const Variant& v, const Observations& seen) const {
     switch (expectation_.end) {
       case End::stands:

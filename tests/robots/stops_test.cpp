@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drives at the stops of their joints, and states that leave all bounds, in every motion by forces.
+// Drives at the stops of their joints, and states beyond all bounds, in every motion by forces.
 #include <gtest/gtest.h>
 
 #include "tests/robots/trial.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 class EveryDrive : public ::testing::TestWithParam<std::string> {};
 
-/// A link of 0.3 kg m^2 about its hinge, which begins at its lower stop, without gravity.
+/// A link of 0.3 kg m^2 about its hinge that starts at its lower stop, without gravity.
 struct Door : test::Scene {
   explicit Door(const std::string& motion) {
     world().set(world_object, keys::gravity, Vec3(0, 0, 0));
@@ -49,7 +49,7 @@ TEST_P(EveryDrive, StopsAJointThatIsDrivenAgainstItsStop) {
   EXPECT_NEAR(door.hinge(keys::joint_velocity), 0, 1e-3);
 }
 
-/// motion.simplified counts what is a number as finite.
+/// Motions by engines; motion.simplified accepts any finite number.
 class EveryEngine : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryEngine, TellsWhenAStateHasLeftAllBounds) {

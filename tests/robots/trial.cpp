@@ -77,7 +77,7 @@ class Trial {
     return inertia;
   }
 
-  /// Whether the run is to go on.
+  /// Returns whether the run continues.
   bool observe(int k, int samples) {
     poses_.clear();
     double energy = 0;

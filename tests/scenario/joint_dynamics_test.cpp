@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Damping, friction and armature of joints that the scenario states in place of the model.
+// Damping, friction and armature of joints that the scenario gives instead of the model.
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenarios that are much larger than those that people write: what takes time in proportion takes seconds, and what
-// takes it squared takes hours.
+// Scenarios that are much larger than hand-written ones. Linear work takes seconds; quadratic work would take hours.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +21,7 @@ BuiltScenario built(const std::string& text) {
   return build(read_scenario(folder.file("s.yaml", text), {}), test::plugins());
 }
 
-/// `count` lines with their numbers in the places of `#`.
+/// Returns `count` lines with their numbers in the places of `#`.
 std::string lines(int count, const std::string& line) {
   std::string all;
   for (int i = 0; i < count; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An embedding program chooses the locale of its user, in which 0.5 is written 0,5.
+// A program that embeds muro sets the locale of its user, in which 0.5 is written 0,5.
 #include <gtest/gtest.h>
 
 #include <clocale>
@@ -22,8 +22,8 @@ struct Comma : std::numpunct<char> {
   std::string do_grouping() const override { return "\3"; }
 };
 
-/// Both kinds of locale with a comma, for as long as it lives: that of C++ by a facet, that of C by one that is made
-/// for the test.
+/// Sets both kinds of locale with a comma during its life: that of C++ by a facet, that of C by a locale made for the
+/// test.
 class CommaLocale {
  public:
   CommaLocale() {
@@ -47,7 +47,7 @@ class CommaLocale {
   std::locale before_ = std::locale::global(std::locale(std::locale::classic(), new Comma));
 };
 
-/// The hash of the state, the recorded file, and the numbers of the report.
+/// Returns the hash of the state, the recorded file, and the numbers of the report.
 std::string outcome_of(const test::ScratchFolder& folder, const std::string& model, const std::string& motion) {
   const std::string csv = folder.path(motion + ".csv");
   const std::string file = folder.file("s.yaml", R"(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Colours and pictures of materials that the scenario states in place of the model.
+// Colours and pictures of materials that the scenario gives instead of the model.
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"
@@ -11,7 +11,7 @@
 namespace muro::host {
 namespace {
 
-/// A body with four visuals: two of one material, one of another, one of none.
+/// A body with four visuals: two of one material, one of another, one without a material.
 const std::string urdf = R"(<robot name="r">
 <material name="team"><color rgba="0 0 1 1"/></material>
 <link name="box"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where scenery and robots stand whose shapes are meshes, and what a body weighs that is one.
+// Places of scenery and robots whose shapes are meshes, and the inertia of a body that is a mesh.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ class AMesh : public testing::Test {
   BuiltScenario built(const std::string& scenario) {
     return build(read_scenario(folder_.file("s.yaml", scenario), {}), test::plugins());
   }
-  /// With a box of which the collision is the mesh, turned and scaled.
+  /// Builds a robot whose collision shape is the mesh, turned and scaled.
   BuiltScenario built_urdf(const std::string& origin, const std::string& scale) {
     folder_.file("r.urdf", R"(<robot name="r"><link name="base"><collision><origin )" + origin +
                                R"(/><geometry><mesh filename="crate.stl" scale=")" + scale +

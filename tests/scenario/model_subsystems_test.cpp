@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a model brings beside its bodies, and what the scenario says of it.
+// Subsystems that a model has besides its bodies, and settings of the scenario for them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -63,7 +63,7 @@ class ModelSubsystems : public testing::Test {
 
 using Lines = std::vector<std::string>;
 
-/// The device stands 4.5 m before a wall that is 9 m wide.
+/// Checks the device 4.5 m before a wall that is 9 m wide.
 TEST_F(ModelSubsystems, MeasureWhereTheirModelPutsThem) {
   const BuiltScenario b = built("");
   EXPECT_EQ(uses(b), (Lines{"laser.embree", "motion.articulated", "sensor.error"}));
@@ -73,7 +73,7 @@ TEST_F(ModelSubsystems, MeasureWhereTheirModelPutsThem) {
   EXPECT_EQ(range(b, 0), 50) << "beside the wall";
 }
 
-/// Inertia 0.1 kg m^2 and 3.6 N m/rad swing with 6 rad/s about the reference 0.5 rad.
+/// Checks an inertia of 0.1 kg m^2 on 3.6 N m/rad: it swings with 6 rad/s about the reference 0.5 rad.
 TEST_F(ModelSubsystems, ASpringSwingsAboutItsReference) {
   const BuiltScenario b = built("");
   for (int quarter = 1; quarter <= 4; ++quarter) {
@@ -109,7 +109,7 @@ TEST_F(ModelSubsystems, LeaveLinksWithoutWeightBesideADriveOfTheScenario) {
                             "drive.gravity_compensation"}));
 }
 
-/// The default contact law is there although a drive adds to `wrench.external`, too.
+/// Checks that the default contact law is there although a drive adds to `wrench.external`, too.
 TEST_F(ModelSubsystems, LinksWithoutWeightStandOnTheGroundLikeOthers) {
   const std::string scene =
       "world: {objects: {ground: {shape: plane}}}\nrobots: {box: {shape: {box: [0.2, 0.2, 0.2]}, mass: 2, at: {z: "
@@ -147,7 +147,7 @@ TEST_F(ModelSubsystems, ThatAreNotThereCannotBeChanged) {
             std::string::npos);
 }
 
-/// A drive of what are no wheels, which Gazebo would run.
+/// Checks a drive whose joints are not wheels, which Gazebo would run.
 TEST_F(ModelSubsystems, ThatCannotBeConnectedAreLeftOutWithAWarning) {
   std::string with_drive = model;
   with_drive.insert(with_drive.find("</robot>"),

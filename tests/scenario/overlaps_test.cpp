@@ -11,7 +11,7 @@
 namespace muro::host {
 namespace {
 
-/// The notes of a built scenario, without the path of its file.
+/// Returns the notes of a built scenario, without the path of its file.
 std::vector<std::string> notes_of(const std::string& text) {
   const test::ScratchFolder folder;
   folder.file("arm.urdf", R"(<robot name="arm">
@@ -33,7 +33,7 @@ std::vector<std::string> notes_of(const std::string& text) {
 using Notes = std::vector<std::string>;
 
 TEST(Overlaps, AreToldWithBothBodiesAndTheirDepth) {
-  // of two balls: 0.3 + 0.3 - 0.5; of a ball and the wall: 0.3 - (1.05 - 0.4 / 2 - 0.6)
+  // two balls: 0.3 + 0.3 - 0.5; a ball and the wall: 0.3 - (1.05 - 0.4 / 2 - 0.6)
   EXPECT_EQ(
       notes_of(R"(
 world:

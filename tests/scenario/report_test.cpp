@@ -46,7 +46,7 @@ TEST(Report, NamesAlgorithmsThatAreNotDeterministic) {
   const ObjectId laser = scene.add_sensor_object(ball, "laser", ball.base());
   scene.use("motion.point", 10, {{&ball, ball.base()}});
   scene.use("scene.bvh", 0);
-  scene.use("laser.auto", 10, {{&ball, laser}});  // it measures the machine, and chooses by that
+  scene.use("laser.auto", 10, {{&ball, laser}});  // it measures the machine to choose a method
   scene.build();
   EXPECT_EQ(nondeterministic_algorithms(scene), std::vector<std::string>{"laser.auto"});
   const auto written = report({}, scene, Odometer(scene));

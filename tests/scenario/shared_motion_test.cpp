@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots of several groups that move alike are items of one motion.
+// Robots of several groups with equal motions are items of one motion.
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
@@ -18,7 +18,7 @@ BuiltScenario build_of(const std::string& text) {
   return build(read_scenario(folder.file("s.yaml", text), {}), test::plugins());
 }
 
-/// Two teams of humanoids, three and two.
+/// Returns a scenario with two teams of three and two humanoids.
 std::string teams(const std::string& motion_of_red, const std::string& schedule = "") {
   return R"(
 world: {objects: {ground: {shape: plane}}}
@@ -39,7 +39,7 @@ robots:
 
 constexpr const char* alike = "{use: motion.articulated, rate: 1000, joints: position}";
 
-/// What the instances of motions serve.
+/// Returns the number of items of each motion.
 std::vector<std::size_t> items_of_motions(const BuiltScenario& b) {
   std::vector<std::size_t> items;
   for (const auto& i : b.simulation->instances())

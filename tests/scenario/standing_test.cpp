@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What has no height stands on the ground however it is turned: its shapes against clouds of points on their surfaces.
+// Bodies without a given height stand on the ground at any orientation: shapes compared with points on their surfaces.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 constexpr double micrometre = 1e-6;  ///< m
 constexpr int copies = 8;            ///< of each kind, each turned at random
 
-/// A kind of shape, and points on its surface that any plane which touches it touches to a micrometre.
+/// A kind of shape, and points on its surface: a plane that touches the shape touches a point, to a micrometre.
 struct Form {
   std::string name, yaml;
   std::vector<Vec3> points;
@@ -32,7 +32,7 @@ void add_rim(std::vector<Vec3>& points, double radius, double z) {
     points.emplace_back(radius * std::cos(2 * M_PI * i / count), radius * std::sin(2 * M_PI * i / count), z);
 }
 
-/// As a point for each ball: the lowest point of one is below its middle.
+/// Returns the radius of shapes of balls, whose points are centres of balls; 0 for others.
 double ball_radius(const std::string& name) { return name == "ball" ? 0.3 : name == "pole" ? 0.15 : 0; }
 
 class Standing : public testing::Test {
@@ -45,7 +45,7 @@ class Standing : public testing::Test {
     Form tin{"tin", "{cylinder: [0.25, 0.1]}", {}};
     for (const double z : {0.05, -0.05}) add_rim(tin.points, 0.25, z);
     forms_.push_back(tin);
-    // a gutter is concave, an egg has more corners than one would look at by hand
+    // a gutter is concave; an egg has more corners than a person can check
     mesh::Mesh gutter, egg;
     gutter.vertices = {{-1, -1, 1}, {-1, 1, 1}, {0, -1, 0},   {0, 1, 0},
                        {1, -1, 1},  {1, 1, 1},  {0, -1, 0.2}, {0, 1, 0.2}};
@@ -71,7 +71,7 @@ class Standing : public testing::Test {
     forms_.push_back({"egg", "{mesh: egg.obj}", egg.vertices});
   }
 
-  /// All kinds as scenery and as robots, turned at random, without heights.
+  /// Returns all kinds as scenery and as robots, turned at random, without heights.
   std::string everything() const {
     std::string objects, robots;
     int number = 0;
@@ -94,7 +94,7 @@ class Standing : public testing::Test {
     return build(read_scenario(folder_.file("s.yaml", text), {}), test::plugins());
   }
 
-  /// `above`: of a point (m), along the normal of the ground below it.
+  /// `above`: height of a point (m), along the normal of the ground below it.
   void expect_on_ground(const std::string& ground, const std::function<double(const Vec3&)>& above) {
     const BuiltScenario b = built("world:\n  objects:\n" + ground + everything());
     const World& world = b.simulation->world();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where joints stand at the start, and how a robot in that pose is placed.
+// Joints at the start, and the placement of a robot in that pose.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,8 +15,8 @@
 namespace muro::host {
 namespace {
 
-/// A box with a height of 0.2 m, a boom of 1 m along x that turns down with rising angles and ends in a ball of 0.1 m,
-/// and a flag on the box that follows it.
+/// Returns a box with a height of 0.2 m, and a boom of 1 m along x that turns down with rising angles and ends in a
+/// ball of 0.1 m. A flag on the box follows the boom.
 std::string crane(const std::string& limits) {
   const std::string inertial =
       R"(<inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>)";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where scenery and robots stand in a scene with heightmaps.
+// Places of scenery and robots in a scene with heightmaps.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST_F(OnTerrain, SceneryWithoutAHeightTouchesTheSlopeWithItsLowestEdge) {
   const BuiltScenario b = built(R"(    crate: {shape: {box: [1, 2, 0.5]}, at: {x: 4, y: 2}}
     turned: {shape: {box: [1, 2, 0.5]}, at: {x: 4, y: 2, yaw: 1.5707963267948966}}
     before: {shape: {box: [1, 2, 0.5]}, at: {x: 4, y: 2, z: 0.1}})");
-  // of its base the corner at +x -y is over the highest ground
+  // the corner of its base at +x -y is over the highest ground
   EXPECT_NEAR(pose(b, "crate").position.z(), 0.25 * 4.5 - 0.125 * 1 + 0.25, 1e-9);
   EXPECT_NEAR(pose(b, "turned").position.z(), 0.25 * 5 - 0.125 * 1.5 + 0.25, 1e-9);
   EXPECT_EQ(pose(b, "before").position.z(), 0.1) << "a height that is given stays";
@@ -193,7 +193,7 @@ TEST_F(OnRoughTerrain, RobotsMovedByForcesStartAboveTheGroundWithoutOverlap) {
   EXPECT_TRUE(b.notes.empty()) << b.notes.front();
 }
 
-/// Whether any point of the hills, looked at every centimetre, is in a shape.
+/// Returns whether a point of the hills, checked every centimetre, is in a shape.
 template <class IsInside>
 bool is_in_hills(const Pose& at, const IsInside& is_inside, const Heightmap& hills) {
   for (int i = -80; i <= 80; ++i)
@@ -215,7 +215,7 @@ TEST_F(OnRoughTerrain, EachShapeStandsAsLowAsItCan) {
     for (int i = 0; i < 16; ++i) {
       Pose at = pose(b, fmt::format("{}_{}", name, i));
       EXPECT_FALSE(is_in_hills(Pose{at.position + Vec3(0, 0, 1e-5), at.orientation}, is_inside, hills)) << name << i;
-      at.position.z() -= 0.012;  // more than the hills rise within a centimetre
+      at.position.z() -= 0.012;  // larger than the rise of the hills within a centimetre
       EXPECT_TRUE(is_in_hills(at, is_inside, hills)) << name << i << " hovers";
     }
   };
@@ -267,7 +267,7 @@ TEST_F(OnGentleTerrain, ARobotIsHandedFromForcesToKinematicsAndBackWithoutAJump)
     EXPECT_LT((now.position - before.position).norm(), 2e-3) << "to " << level;
     EXPECT_LT(now.orientation.angularDistance(before.orientation), 0.01) << "to " << level;
   };
-  s.run_for(1);  // it drops onto all of its wheels
+  s.run_for(1);  // it falls onto all of its wheels
   hand_over(1);
   s.run_for(0.5);
   hand_over(0);

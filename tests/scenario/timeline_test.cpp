@@ -13,7 +13,7 @@
 namespace muro::host {
 namespace {
 
-/// What a run of 30 vehicles on three threads, for a tenth of a second, leaves in the file.
+/// File of a run of 30 vehicles on three threads for a tenth of a second.
 struct Timelines : ::testing::Test {
   test::ScratchFolder folder;
   BuiltScenario built = build(
@@ -52,7 +52,7 @@ TEST_F(Timelines, CallsOfAThreadDoNotOverlap) {
   for (const auto& e : events) {
     if (e.at("ph") != "X") continue;
     double& last = until[e.at("tid")];
-    EXPECT_GE(e.at("ts").get<double>(), last - 0.002);  // written with 0.001 us
+    EXPECT_GE(e.at("ts").get<double>(), last - 0.002);  // the file has a resolution of 0.001 us
     last = e.at("ts").get<double>() + e.at("dur").get<double>();
   }
   EXPECT_GE(until.size(), 1u);

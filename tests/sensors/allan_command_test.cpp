@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `muro sensors allan` as a user starts it.
+// `muro sensors allan` as a user runs it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ struct AllanRun {
   }
 };
 
-/// Numbers of the line that begins with this averaging time.
+/// Returns the numbers of the line that begins with this averaging time.
 std::vector<double> row(const std::string& output, const std::string& tau) {
   std::istringstream in(output);
   for (std::string line; std::getline(in, line);) {

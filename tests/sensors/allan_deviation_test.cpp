@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The estimate of `muro sensors allan` and what it expects, against closed forms.
+// The estimate of `muro sensors allan` and its expected values, compared with closed forms.
 #include "host/tools/sensors/allan_deviation.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace muro::host {
 namespace {
 
 TEST(AllanEstimate, MeetsAHandComputedExample) {
-  // clusters of 1: differences 1, 3, -2, 2, ...; Riley, NIST SP 1065, equation 10 by hand
+  // clusters of 1: differences 1, 3, -2, 2, ...; Riley, NIST SP 1065, equation 10, computed by hand
   const std::vector<double> y{1, 2, 5, 3, 5, 5, 4, 6, 7, 7};
   const std::vector<AllanPoint> points = allan_deviation(y, 0.5);
   ASSERT_EQ(points.size(), 2U) << "clusters of at most a fifth of the samples";
@@ -34,7 +34,7 @@ TEST(ExpectedAllan, HasTheClosedFormsOfItsProcesses) {
   EXPECT_NEAR((NoiseFigures{.random_walk = 0.3}.deviation(1000, 0.01)), 0.3 * std::sqrt(10.0 / 3), 1e-6);
   EXPECT_NEAR((NoiseFigures{.resolution = 0.1}.deviation(100, 1)), 0.1 / std::sqrt(1200), 1e-15);
   EXPECT_NEAR((NoiseFigures{.noise_density = 3, .resolution = std::sqrt(12) * 4}.deviation(1, 1)), 5, 1e-12);
-  // Gauss-Markov: 0.6174 s at 1.8926 T, whatever the period
+  // Gauss-Markov: 0.6174 s at 1.8926 T, at any period
   for (const double period : {1e-3, 1e-2, 0.1})
     EXPECT_NEAR((NoiseFigures{.gauss_markov_sigma = 2, .gauss_markov_time = 50}.deviation(
                     std::size_t(std::lround(1.8926 * 50 / period)), period)),
@@ -50,7 +50,7 @@ TEST(ExpectedAllan, OfASlowBiasIsThatOfARandomWalkAtFirst) {
   const NoiseFigures slow{.gauss_markov_sigma = s, .gauss_markov_time = t}, walk{.random_walk = k};
   for (const std::size_t m : {1, 10, 1000, 50000})
     EXPECT_NEAR(slow.deviation(m, 0.01) / walk.deviation(m, 0.01), 1, 1e-3) << m;
-  // where one formula takes over from the other
+  // where another formula begins
   EXPECT_NEAR(slow.deviation(1000001, 0.01) / slow.deviation(999999, 0.01), 1, 1e-4);
 }
 

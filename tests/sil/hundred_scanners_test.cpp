@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// 100 scanners at 10 Hz over TCP at once, in real time, to a client that has a socket for each.
+// 100 scanners at 10 Hz over TCP at once, in real time, for a client that has a socket for each.
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -17,11 +17,11 @@ namespace {
 
 constexpr int scanners = 100, first_port = 21300;
 
-/// What has come from one scanner.
+/// Data from one scanner.
 struct Stream {
   int socket = -1;
-  std::string last;  ///< begin of a line
-  int scans = 0;     ///< begun: lines "99b", the status of a scan
+  std::string last;  ///< beginning of a line
+  int scans = 0;     ///< number of scans that have begun: lines "99b", the status of a scan
   std::size_t bytes = 0;
 };
 

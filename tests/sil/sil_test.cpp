@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// examples/sil: a vehicle that is driven by a program outside, which sees a scanner on a pseudo-terminal and a drive on
-// TCP.
+// examples/sil: an external program drives a vehicle. It uses a scanner on a pseudo-terminal and a drive on TCP.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -15,7 +14,7 @@ namespace {
 
 const std::string example = MURO_TEST_SOURCE_DIR "/examples/sil/";
 
-/// A port of this machine that nobody uses.
+/// Returns a port of this machine that is not in use.
 std::string free_port() { return std::to_string(test::port_of(test::Peer(test::bound_to_tcp()).fd)); }
 
 class AVehicleWithAPilotOutside : public testing::Test {
@@ -31,7 +30,7 @@ class AVehicleWithAPilotOutside : public testing::Test {
     double distance() const { return report["robots"][0]["distance_m"]; }
   };
 
-  /// `pilot`: its options, or what is done in its place; none: nobody drives.
+  /// `pilot`: command that runs pilot.py, or a substitute; empty: no pilot.
   Run run(const std::string& options, const std::string& pilot) {
     const std::string port = free_port(), laser = scratch_.path("laser"), report = scratch_.path("report.json");
     std::string command = "MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " run " + example +
@@ -47,7 +46,7 @@ class AVehicleWithAPilotOutside : public testing::Test {
   }
 
   test::ScratchFolder scratch_;
-  std::string after_start_;     ///< what the shell does meanwhile
+  std::string after_start_;     ///< command of the shell meanwhile
   std::string duration_ = "8";  ///< s
 };
 
@@ -139,9 +138,9 @@ TEST_F(AVehicleWithAPilotOutside, IsWaitedForInVainWhenThereIsNoPilot) {
   EXPECT_FALSE(on.report["external_inputs"]["not_repeatable"].empty());
 }
 
-/// The urban team's first rover alone: nobody is outside but who ends the run, or resets it.
+/// The first rover of the urban team alone. The only external inputs end the run or reset it.
 struct ARecordedRun : testing::Test {
-  /// `then`: what the shell does next.
+  /// `then`: next command of the shell.
   test::CommandResult run(const std::string& options, const std::string& then = "") const {
     return test::run_command("MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " run " MURO_TEST_SOURCE_DIR
                              "/examples/urban/urban.yaml --set robots.rovers.count=1 " +

@@ -7,7 +7,7 @@
 
 namespace muro::lane_test {
 
-/// Those that this processor can run.
+/// Returns the instruction sets that this processor can run.
 inline std::vector<lane::Isa> each_isa() {
   std::vector<lane::Isa> all;
   for (const lane::Isa isa : {lane::Isa::base, lane::Isa::avx2, lane::Isa::avx512})

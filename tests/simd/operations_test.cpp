@@ -11,7 +11,7 @@
 namespace muro::lane_test {
 namespace {
 
-/// Ordinary numbers among all that is special.
+/// Random numbers, ordinary and special ones.
 template <class T>
 class Numbers {
  public:
@@ -42,7 +42,7 @@ class Numbers {
   std::mt19937 random_{1};
 };
 
-/// Bit for bit; which of the many values that are no number is left open, as by IEEE 754.
+/// Compares bit for bit, but accepts any NaN for a NaN, as IEEE 754 leaves it open.
 bool same(double a, double b) {
   return (std::isnan(a) && std::isnan(b)) || std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
@@ -50,7 +50,7 @@ bool same(float a, float b) {
   return (std::isnan(a) && std::isnan(b)) || std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-/// What the operation is, in plain C++.
+/// Returns the result of the operation in plain C++.
 template <class T>
 T plain(Operation operation, T a, T b) {
   switch (operation) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t length = 20;  ///< numbers of a place, with room on both sides
 
-/// Eight places in an order of their own, whose numbers all differ.
+/// Eight places in a special order, whose numbers all differ.
 struct Memory {
   std::vector<double> source, target;
   const double* from[8];
@@ -24,7 +24,7 @@ struct Memory {
       to[i] = target.data() + length * (i * 3 % 8);
     }
   }
-  /// Whether the `n` numbers from `first` on, of the places in `which`, have been copied, and nothing else.
+  /// Returns whether exactly the `n` numbers from `first` on, of the places in `which`, have been copied.
   testing::AssertionResult copied(int n, std::ptrdiff_t first, unsigned which) const {
     for (int i = 0; i < 8; ++i)
       for (std::ptrdiff_t k = 0; k < std::ptrdiff_t(length); ++k) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What lanes are for: a team that is moved eight robots at a time drives as each robot drives alone.
+// Purpose of lanes: a team that is moved eight robots at a time drives exactly as each robot drives alone.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -11,11 +11,11 @@
 namespace muro {
 namespace {
 
-/// Rovers and four-legged robots on a plane, far from each other; of one kind there are not as many as fill lanes.
+/// Rovers and four-legged robots on a plane, far from each other. Neither number is a multiple of the lanes.
 struct Team : test::Scene {
   static constexpr int rovers = 21, walkers = 11;
 
-  /// All of them, or one alone.
+  /// Adds all robots, or one alone.
   explicit Team(const std::string& motion, int only = -1) {
     add_ground();
     const std::string models = MURO_TEST_SOURCE_DIR "/examples/models/";
@@ -37,7 +37,7 @@ struct Team : test::Scene {
     build();
   }
 
-  /// Joints get new targets ten times a second.
+  /// Drives with new joint targets ten times a second.
   void drive(double seconds) {
     for (int k = 0; k < int(10 * seconds); ++k) {
       for (const RobotView* r : world().robots()) {

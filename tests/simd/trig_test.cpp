@@ -21,7 +21,7 @@ Found sincos(lane::Isa isa, Width width, const double (&angles)[values]) {
   return f;
 }
 
-/// Angles of all sizes up to 10^6, and such that lie beside a multiple of pi/4.
+/// Draws angles of all sizes up to 10^6, many of them close to a multiple of pi/4.
 void draw(std::mt19937& random, double (&angles)[values]) {
   std::uniform_real_distribution<double> unit(-1, 1);
   for (double& a : angles) {
@@ -31,7 +31,7 @@ void draw(std::mt19937& random, double (&angles)[values]) {
   }
 }
 
-/// How many units in the last place of a double `value` is off.
+/// Returns the error of a double `value` in units in the last place.
 double ulps(double value, long double exact) {
   int exponent = 0;
   std::frexp(exact, &exponent);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stands in front of glibc's allocator. Link it into a test program; plugins then use it too.
+// Wraps glibc's allocator. Link it into a test program; plugins then use it too.
 #include "tests/support/allocation_counter.hpp"
 
 #include <atomic>

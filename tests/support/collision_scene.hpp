@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes of robots that touch, for tests of the spatial index and of collision algorithms.
+// Scenes of robots that touch, for tests of the scene index and of collision algorithms.
 #pragma once
 
 #include <map>
@@ -12,8 +12,8 @@ namespace muro::test {
 
 inline const Inertia unit_inertia = Inertia::from(1, Vec3::Zero(), 0.1 * Mat3::Identity());
 
-/// Robots that are moved by forces (motion.simplified) or by commands (motion.point), without gravity, the spatial
-/// index and one collision algorithm.
+/// Robots moved by forces (motion.simplified) or by commands (motion.point), without gravity, with the scene index and
+/// one collision algorithm.
 struct CollisionScene : Scene {
   std::string algorithm;
   std::map<std::string, ParameterInput> parameters, index_parameters;
@@ -44,7 +44,7 @@ struct CollisionScene : Scene {
     use(algorithm, 100, {}, parameters);
     build();
   }
-  /// Afterwards contacts are those of the poses before it.
+  /// Makes one step. Afterwards contacts are those of the poses before it.
   void step_once() { run_for(0.01); }
   std::vector<Contact> contacts(const RobotView& r) {
     const std::span<Contact> list = world().values(r.base(), keys::contacts);
@@ -57,7 +57,7 @@ struct Crowd : CollisionScene {
   std::vector<const RobotView*> all;
   std::mt19937_64 engine;
 
-  /// `margin`: of scene.bvh.
+  /// `margin`: parameter of scene.bvh.
   explicit Crowd(double margin, unsigned seed = 1) : engine(seed) {
     index_parameters = {{"margin", margin}};
     add_ground();
@@ -104,7 +104,7 @@ Shape mesh_shape(Interns& texts, const std::string& file) {
   return mesh;
 }
 
-/// One body with a mesh and a box around its origin.
+/// Returns one body with a mesh and a box around its origin.
 inline RobotTree meshed_body(const std::string& file) {
   return tree_of([&](RobotBuilder& b) {
     const Shape shapes[] = {mesh_shape(b, file), Shape::box({0.1, 0.1, 0.1})};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a user reads who has made a mistake.
+// Messages for users who have made a mistake.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace muro::test {
 
-/// The message of the Failure that `work` ends with.
+/// Returns the message of the Failure that ends `work`.
 template <class Failure = SetupError, class Work>
 std::string complaint_of(const Work& work) {
   try {

@@ -6,7 +6,7 @@
 
 namespace muro::test {
 
-/// A folder of its own for one test, removed at its end.
+/// A folder for one test, removed at its end.
 class ScratchFolder {
  public:
   ScratchFolder();
@@ -24,7 +24,7 @@ class ScratchFolder {
 
 std::string text_of(const std::string& path);
 
-/// What a command of the shell did; output is standard output and standard error together.
+/// Result of a shell command; `output`: standard output and standard error together.
 struct CommandResult {
   int exit_code = -1;
   std::string output;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Heightmaps of functions, for tests of what goes on them.
+// Heightmaps of functions, for tests of bodies on them.
 #pragma once
 
 #include <cstring>
@@ -11,12 +11,12 @@
 
 namespace muro::test {
 
-/// A square heightmap on a file of its own, as high as a function says at its nodes (to the last digit of a float).
+/// A square heightmap in a file of its own. A function gives the heights at its nodes (to the last digit of a float).
 class Hills {
  public:
   using Heights = std::function<double(double x, double y)>;
 
-  /// `side`: m, of the square about the origin; `cells` along each of its sides.
+  /// `side`: m, of the square about the origin; `cells`: number along each side.
   Hills(double side, int cells, const Heights& height) : columns_(std::uint32_t(cells) + 1), size_(side, side, 1) {
     for (int row = 0; row <= cells; ++row)
       for (int column = 0; column <= cells; ++column)
@@ -28,7 +28,7 @@ class Hills {
 
   const std::string& path() const { return path_; }
   Heightmap heightmap() const { return {values_, columns_, columns_, size_}; }
-  /// `others`: shapes of the same object.
+  /// `others`: further shapes of the same object.
   void add_to(Simulation& scene, const Pose& pose = {}, std::vector<Shape> others = {}) const {
     others.push_back({.kind = ShapeKind::heightmap, .mesh = scene.world().intern(path_), .size = size_});
     scene.world().add_scenery("hills", pose, std::span<const Shape>(others));

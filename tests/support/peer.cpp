@@ -34,7 +34,7 @@ sockaddr_un unix_address(const std::string& path) {
   return address;
 }
 
-/// The socket for which `act` is 0; -1: it was not.
+/// Returns the socket for which `act` is 0, or -1 if it is not.
 template <class Address>
 int socket_at(const Address& address, int (*act)(int, const sockaddr*, socklen_t)) {
   const auto* const where = reinterpret_cast<const sockaddr*>(&address);
@@ -110,7 +110,7 @@ bool Peer::say(std::string_view text) const {
   return size == ssize_t(text.size());
 }
 
-/// What comes next. False: nothing came, or the other side has closed.
+/// Reads what comes next. False: nothing came, or the other side has closed the connection.
 bool Peer::take_in(int wait_ms) {
   char buffer[65536];
   pollfd readable{fd, POLLIN, 0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PNG files, read by libpng: what tests look at. Who includes this links PNG::PNG.
+// PNG files, read by libpng, for checks of pictures. A target that includes this links PNG::PNG.
 #pragma once
 
 #include <png.h>
@@ -10,8 +10,8 @@
 
 namespace muro::test {
 
-/// A picture as a file has it, rows from the top; empty where it cannot be read. T: std::uint8_t for three bytes a
-/// pixel (sRGB), std::uint16_t for one grey value a pixel (linear).
+/// A picture of a file, rows from the top; empty if it cannot be read. T: std::uint8_t for three bytes a pixel (sRGB),
+/// std::uint16_t for one grey value a pixel (linear).
 template <class T = std::uint8_t>
 struct Picture {
   std::uint32_t width = 0, height = 0;

@@ -8,7 +8,7 @@
 
 namespace muro::test {
 
-/// A shape of this kind whose measures are what `random.length()` (m) gives.
+/// Returns a shape of this kind with sizes from `random.length()` (m).
 template <class Random>
 Shape shape_of(ShapeKind kind, Random& random) {
   switch (kind) {
@@ -25,7 +25,7 @@ Shape shape_of(ShapeKind kind, Random& random) {
   }
 }
 
-/// Random numbers, rotations and shapes, the same for the same seed.
+/// Random numbers, rotations and shapes; equal for equal seeds.
 class Randoms {
  public:
   explicit Randoms(unsigned seed) : engine_(seed) {}
@@ -42,14 +42,14 @@ class Randoms {
     std::normal_distribution<double> g;
     return Quat(Eigen::Quaterniond(g(engine_), g(engine_), g(engine_), g(engine_)).normalized());
   }
-  /// One of the 24 rotations that map the axes on each other.
+  /// Returns one of the 24 rotations that map the axes on each other.
   Quat right_angles() {
     Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
     for (const int axis : {0, 1, 2, 0}) q = q * Eigen::AngleAxisd(below(4) * M_PI / 2, Vec3::Unit(axis));
     Mat3 m = q.toRotationMatrix().unaryExpr([](double x) { return std::round(x); });
     return Quat(m);
   }
-  /// 0.05 to 2 m, all scales alike.
+  /// Returns 0.05 to 2 m, all orders of magnitude with equal probability.
   double length() { return 0.05 * std::pow(40.0, uniform(0, 1)); }
   Shape shape(ShapeKind kind) { return shape_of(kind, *this); }
 

@@ -9,10 +9,10 @@
 
 namespace muro::test {
 
-/// The plugins of the build.
+/// Returns the plugins of the build.
 Registry& plugins();
 
-/// A tree built by `build`, checked to be usable.
+/// Returns a tree built by `build`, checked to be usable.
 RobotTree tree_of(const std::function<void(RobotBuilder&)>& build);
 
 struct Scene : Simulation {
@@ -21,13 +21,13 @@ struct Scene : Simulation {
 
   const RobotView& add(std::string_view name, const RobotTree& tree, const Pose& start = {}, const Twist& twist = {});
   void add_ground(double friction = 0.8, const Pose& pose = {});
-  /// Index, collision, contact and kinematics, all on demand, for the robots added so far.
+  /// Adds index, collision, contact and kinematics, all on demand, for the robots added so far.
   void use_contacts(std::map<std::string, ParameterInput> contact_parameters = {},
                     std::map<std::string, ParameterInput> collision_parameters = {});
   void use_kinematics();
   std::vector<Item> all_robots();
 
-  /// A wrench at the base of a robot that the test sets: a summand of what acts on it from outside. Before build().
+  /// Returns a wrench at a robot's base that the test sets, a summand of the external wrench. Call it before build().
   Wrench& push(const RobotView& robot);
 
   Pose& pose(const RobotView& robot);

@@ -15,29 +15,29 @@ struct WheelPart {
   JointLimits limits{};
   Shape shape{};  ///< used when `own_shape`
   bool own_shape = false;
-  bool visual = false;  ///< the shape is seen but does not collide
+  bool visual = false;  ///< the shape is visible but does not collide
 };
 
-/// A cylinder whose axis is the y axis.
+/// Returns a cylinder whose axis is the y axis.
 Shape tyre(double radius, double length = 0.04);
 
-/// A base "chassis" that carries the wheels, and what `more` adds.
+/// Returns a base "chassis" with the wheels and with what `more` adds.
 RobotTree wheeled_robot(
     const std::vector<WheelPart>& wheels, const std::function<void(RobotBuilder&)>& more = [](RobotBuilder&) {});
 
-/// Two driven wheels, `track` apart, on the y axis of the base.
+/// Returns a vehicle with two driven wheels on the y axis of the base, `track` apart.
 RobotTree two_wheeler(double radius, double track);
 
-/// Where a rover's mass and shapes are.
+/// Masses and shapes of a rover.
 struct RoverBody {
   Vec3 chassis{0.35, 0.25, 0.12};  ///< m, lengths of the box
-  double com_height = 0;           ///< m, of the chassis, over its middle
+  double com_height = 0;           ///< m, of the chassis, above its middle
   Shape wheel = tyre(0.06);
   Inertia wheel_inertia;
 };
 
-/// Wheels of radius 0.06 m and 0.3 kg at x = +-0.12, y = +-0.15 m under a chassis of 4 kg; stands on z = 0 with its
-/// base at 0.09 m. Its joints are "front_left_joint", "front_right_joint", "rear_left_joint", "rear_right_joint".
+/// Returns a rover on z = 0 with its base at 0.09 m, a chassis of 4 kg, wheels of radius 0.06 m and 0.3 kg at x =
+/// +-0.12, y = +-0.15 m, joints "front_left_joint", "front_right_joint", "rear_left_joint", "rear_right_joint".
 RobotTree rover(const RoverBody& body, double friction);
 
 }  // namespace muro::test

@@ -16,10 +16,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity(), none = std::numeric_limits<double>::quiet_NaN();
 
-/// 1 ulp, and what the long double to compare with may be off.
+/// 1 ulp, with the error of the long double that it is compared with.
 constexpr double one_unit = 1.001;
 
-/// How many units in the last place of a double `value` is off.
+/// Returns the error of a double `value` in units in the last place.
 double ulps(double value, long double exact) {
   int exponent = 0;
   std::frexp(exact, &exponent);
@@ -32,7 +32,7 @@ struct Function {
   double (*ours)(double);
   double (*in_c)(double);
   long double (*exact)(long double);
-  double low, high;  ///< arguments between, some of them in proportion to the powers of ten
+  double low, high;  ///< range of arguments, some of them over all orders of magnitude
 };
 
 const Function functions[] = {
@@ -60,7 +60,7 @@ const Function functions[] = {
 
 class Draws {
  public:
-  /// Between the bounds, evenly or in all orders of magnitude.
+  /// Returns a number between the bounds, uniform or over all orders of magnitude.
   double between(double low, double high) {
     if (unit_(random_) < 0.5) return low + (high - low) * unit_(random_);
     const double bound = unit_(random_) < 0.5 ? high : low, size = bound * std::pow(10, -20 * unit_(random_));
@@ -102,7 +102,7 @@ TEST(ElementaryFunctions, OfTwoNumbersAreWithinOneUnitInTheLastPlace) {
 }
 
 TEST(ElementaryFunctions, OfHugeAnglesAreWithinOneUnitInTheLastPlace) {
-  // the example of Ng, Argument Reduction for Huge Arguments: Good to the Last Bit, 1992
+  // example of Ng, Argument Reduction for Huge Arguments: Good to the Last Bit, 1992
   EXPECT_LE(ulps(elementary::sin(1e22), -0.85220084976718880177270589375303L), 1);
   EXPECT_LE(ulps(elementary::cos(1e22), 0.52321478539513894549759442588439L), 1);
   Draws draws;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A data race on purpose: shows that the runs beside it could fail.
+// A data race on purpose: shows that the other runs can fail.
 #include <thread>
 
 #include "core/schedule/worker_pool.hpp"

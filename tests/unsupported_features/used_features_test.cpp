@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a robot uses of its motion, found by its model and its parameters.
+// Features that a robot uses of its motion, found from its model and its parameters.
 #include "host/scenario/features/used_features.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 const Inertia solid{.mass = 1, .ixx = 0.1, .iyy = 0.1, .izz = 0.1};
 
-/// A base that carries a wheel (balanced), an arm (not), and a slide that follows the arm.
+/// Returns a base that carries a wheel (balanced), an arm (not balanced), and a slide that follows the arm.
 RobotTree machine() {
   return test::tree_of([](RobotBuilder& b) {
     b.base("trunk");

@@ -21,13 +21,13 @@ BuiltScenario open(const std::vector<std::string>& overrides = {}) {
 /// Extremes of the recorded poses of a robot.
 struct Trajectory {
   double distance = 0;
-  double farthest = 0;                  ///< from the start
+  double farthest = 0;                  ///< m, from the start
   double lowest = 1e9, highest = -1e9;  ///< of the base, m
   double max_tilt = 0;                  ///< rad between the body's z axis and the vertical
   double deepest_in_wall = -1e9;  ///< m by which a corner of the chassis was inside a building or beyond the walls
 };
 
-/// How deep (m) a point is inside the city's buildings (10 x 10 blocks of 10 m, 6 m wide) or outside its walls.
+/// Returns how deep (m) a point is inside the city's buildings (10 x 10 blocks of 10 m, 6 m wide) or outside its walls.
 double inside_building(const Vec3& p) {
   const auto distance_to_middle = [](double x) { return std::abs(x - (std::floor(x / 10) * 10 + 5)); };
   const double building = std::abs(p.x()) < 50 && std::abs(p.y()) < 50

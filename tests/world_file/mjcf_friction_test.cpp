@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A world file of MJCF brings MuJoCo's friction rule, the larger of two coefficients, to all motions.
+// A world file in MJCF brings MuJoCo's friction rule, the larger of two coefficients, to all motions.
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"
@@ -10,7 +10,7 @@
 namespace muro::host {
 namespace {
 
-/// m: how far a box without friction of its own slides at 1 m/s on the file's floor, whose friction is 0.5.
+/// Returns how far (m) a box without friction slides at 1 m/s on the file's floor, which has friction 0.5.
 double way_of_a_box(const std::string& world) {
   const test::ScratchFolder folder;
   folder.file("floor.xml",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `world: {file: ...}` of a scenario, as a user meets it.
+// `world: {file: ...}` of a scenario, as a user uses it.
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"
@@ -31,7 +31,7 @@ class WorldFile {
   BuiltScenario open(const std::vector<std::string>& overrides = {}) const {
     return build(read_scenario(scenario_, overrides), test::plugins());
   }
-  /// What `muro check` prints, with paths from the folder.
+  /// Returns the output of `muro check`, with paths relative to the folder.
   test::CommandResult check() const {
     return test::run_command("cd " + folder_.path("") + " && " + muro_program + " check s.yaml");
   }
@@ -64,7 +64,7 @@ TEST(WorldFileOfAScenario, GravityOfTheScenarioGoesBeforeThatOfTheFile) {
   EXPECT_EQ(file.open().simulation->world().value(world_object, keys::gravity), Vec3(0, 0, -1));
 }
 
-/// How far a block of friction 0.2 slides at 1 m/s on a floor of 0.8, in a world of MuJoCo.
+/// Returns how far a block of friction 0.2 slides at 1 m/s on a floor of 0.8, in a world of MuJoCo.
 double sliding_distance(const std::string& more_of_world) {
   const test::ScratchFolder folder;
   folder.file("yard.xml",
@@ -125,7 +125,7 @@ TEST(WorldFileOfAScenario, ABadModelIsToldAndTheRestIsThere) {
 }
 
 TEST(WorldFileOfAScenario, RandomPlacesKeepClearOfItsSceneryAndRobots) {
-  // free of the house (-4.5 to -3.5) is only the right part of the area
+  // only the right part of the area is free of the house (-4.5 to -3.5)
   const WorldFile file(house +
                            "<model name='slab'><static>true</static><pose>0 0 -0.5 0 0 0</pose><link "
                            "name='l'><collision name='c'><geometry><box>"

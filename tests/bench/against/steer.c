@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Control code of the scenes: drives to and fro, another speed and turn at each step. */
+ * Control code of the scenes: drives with another speed and turn at each step. */
 #include <string.h>
 
 #include "muro_controller.h"
@@ -16,7 +16,7 @@ static int create(void* state, const muro_controller_setup* setup, char* error, 
   return 0;
 }
 
-/* From 0 to 1: xorshift. */
+/* Returns a number from 0 to 1, by xorshift. */
 static double uniform(steer* s) {
   s->number ^= s->number << 13, s->number ^= s->number >> 7, s->number ^= s->number << 17;
   return (double)(s->number >> 11) * 0x1.0p-53;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Bullet: humanoids as btMultiBody in one world; servos are torques that each step computes anew, which takes less than
-// half the time that btMultiBodyJointMotor does. Bullet knows no rotors: the inertia of each is added to that of its
-// link about its axis. Joints have no limits here; nothing comes near them.
+// Bullet: humanoids as btMultiBody in one world. Servos are torques that each step computes anew, which takes less than
+// half the time of btMultiBodyJointMotor. Bullet has no rotors: the inertia of each is added to that of its link about
+// its axis. Joints have no limits here, because no joint comes near them.
 #include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -29,7 +29,7 @@ btVector3 moments(const HumanoidBody& b, bool has_rotor) {
   return {i.ixx + rotor.x(), i.iyy + rotor.y(), i.izz + rotor.z()};
 }
 
-/// In a frame whose origin is the body's centre of mass, without a compound around it.
+/// Returns the shape in a frame with its origin in the body's centre of mass, without a compound around it.
 std::unique_ptr<btCollisionShape> shape_of(const HumanoidBody& body) {
   if (body.shapes.size() != 1) throw std::runtime_error("a body of the humanoid has more than one shape");
   const Shape& s = body.shapes.front();
@@ -59,7 +59,7 @@ class BulletHumanoids final : public Humanoids {
     world_.setForceUpdateAllAabbs(false);
     btContactSolverInfo& solver = world_.getSolverInfo();
     solver.m_numIterations = iterations;
-    // Along two directions, as is Bullet's default for such robots, friction is a cone.
+    // Two directions are Bullet's default for such robots; friction is then a cone.
     if (friction_directions == 1) {
       solver.m_solverMode &= ~SOLVER_USE_2_FRICTION_DIRECTIONS;
       solver.m_solverMode |= SOLVER_DISABLE_IMPLICIT_CONE_FRICTION;
@@ -163,7 +163,7 @@ class BulletHumanoids final : public Humanoids {
   btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   btStaticPlaneShape ground_{btVector3(0, 0, 1), 0};
   btCollisionObject ground_object_;
-  std::vector<std::unique_ptr<btCollisionShape>> shapes_;  ///< of each body; null where it has none
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;  ///< of each body; null if it has no shape
   std::vector<std::unique_ptr<btMultiBody>> robots_;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
   std::vector<double> targets_;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double travel = 0.05;  // m, of the suspension at rest
 
-/// Wheels stand on scenery alone; the ground is met in closed form, the rest by search.
+/// Finds what wheels stand on, which is scenery alone: the ground in closed form, the rest by search.
 class SceneryRaycaster final : public btVehicleRaycaster {
  public:
   SceneryRaycaster(btCollisionWorld& world, const btRigidBody& ground) : world_(world), ground_(ground) {}
@@ -29,7 +29,7 @@ class SceneryRaycaster final : public btVehicleRaycaster {
     result.m_hitPointInWorld = nearest.m_hitPointWorld;
     result.m_hitNormalInWorld = nearest.m_hitNormalWorld;
     result.m_distFraction = nearest.m_closestHitFraction;
-    return const_cast<btRigidBody*>(btRigidBody::upcast(nearest.m_collisionObject));  // as the interface wants it
+    return const_cast<btRigidBody*>(btRigidBody::upcast(nearest.m_collisionObject));  // as the interface requires
   }
 
  private:
@@ -51,7 +51,7 @@ class RaycastVehicles final : public Team {
         const Vec3 hard_point = Rover::wheel_centre(w) + Vec3(0, 0, travel);
         btWheelInfo& wheel =
             v.wheels->addWheel(bullet(hard_point), {0, 0, -1}, {0, -1, 0}, travel, Rover::wheel_radius, tuning_, w < 2);
-        // as stiff as muro's contacts: a body on four springs bobs at 50 Hz
+        // as stiff as muro's contacts: a body on four springs oscillates at 50 Hz
         wheel.m_suspensionStiffness = 0.25 * omega * omega;
         wheel.m_wheelsDampingCompression = wheel.m_wheelsDampingRelaxation = 0.5 * omega;
         wheel.m_frictionSlip = Rover::friction;
@@ -83,7 +83,7 @@ class RaycastVehicles final : public Team {
     WheelSpeeds speeds;
   };
 
-  /// The engine has forces, no speeds: each wheel is driven towards its own within the limits of its drive.
+  /// Drives each wheel towards its speed within the limits of its drive, because the engine takes forces, not speeds.
   static void drive(const Vehicle& v) {
     const btMatrix3x3& axes = v.body->getWorldTransform().getBasis();
     const double forward = v.body->getLinearVelocity().dot(axes.getColumn(0));

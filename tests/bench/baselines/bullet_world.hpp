@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What both Bullet programs share: a world set for speed, with the city in it.
+// Code that both Bullet programs share: a world with fast settings, with the city in it.
 #pragma once
 
 #include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pitch = 10;      // m between the middles of neighbouring blocks
 constexpr double lane = 0.8;      // m from the middle of a street to the middle of a lane
-constexpr double crossing = 2.9;  // m from the middle of a crossing that stay free
+constexpr double crossing = 2.9;  // m from the middle of a crossing, kept free
 
 Pose start_pose(double x, double y, double heading) { return {{x, y, Rover::ride_height}, from_rpy(0, 0, heading)}; }
 

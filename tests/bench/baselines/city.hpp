@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scene of the benchmarks, the same for every engine: a function of number of vehicles, seed and time alone.
+// Scene of the benchmarks, equal for every engine: it depends only on number of vehicles, seed and time.
 #pragma once
 
 #include <vector>
@@ -35,14 +35,14 @@ struct WheelSpeeds {
   double left = 0, right = 0;  ///< rad/s
 };
 
-/// Blocks of 10 m, on each a building of 6 x 6 x 5 m, so streets of 4 m; four low walls around; the ground is z = 0.
+/// Blocks of 10 m, each with a building of 6 x 6 x 5 m, so streets of 4 m; four low walls around; ground at z = 0.
 class City {
  public:
-  /// The city has ten by ten blocks, or as many as give every vehicle a quarter of one.
+  /// Builds a city of ten by ten blocks, or of more if every vehicle needs them to have a quarter of a block.
   explicit City(int vehicles, std::uint64_t seed = 1);
-  /// As full as the city of 1000 vehicles: for each of them there are 5.4 to 6 m of streets.
+  /// Returns a city as full as that of 1000 vehicles: for each vehicle there are 5.4 to 6 m of streets.
   static City crowded(int vehicles, std::uint64_t seed);
-  /// The same vehicles on the ground alone.
+  /// Returns the ground alone with the same vehicles.
   static City open(int vehicles, std::uint64_t seed);
 
   const std::vector<Block>& blocks() const { return blocks_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OpenGL used directly: what the z-buffer costs without muro.
+// OpenGL used directly: the cost of the z-buffer without muro.
 #pragma once
 
 #include <array>
@@ -13,16 +13,16 @@
 
 namespace muro::bench {
 
-/// Boxes and cylinders drawn into a depth buffer of their own size, and read back.
+/// Draws boxes and cylinders into a depth buffer of its own, and reads it back.
 class BareDepth {
  public:
-  /// By the processor, in the calling thread.
+  /// Draws on the processor, in the calling thread.
   BareDepth(std::uint32_t width, std::uint32_t height, const render::Surface& cylinder);
   ~BareDepth();
   BareDepth(const BareDepth&) = delete;
   BareDepth& operator=(const BareDepth&) = delete;
 
-  /// A 3x4 matrix by rows: from the unit box, or the cylinder of radius 1 and length 1, to the frame of the camera.
+  /// Matrix of 3x4 by rows: from the unit box, or the cylinder of radius 1 and length 1, to the frame of the camera.
   using Transform = std::array<float, 12>;
   struct Instances {
     std::vector<Transform> boxes, cylinders;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Embree: the scenery as quadrilaterals, vehicles as instances of one mesh. Of the ways tried this is the fastest: the
-// scenery in an instance of its own is slower to trace, one mesh of all vehicles slower to update (rebuilt) or to trace
-// (refitted), and better builds of the top level cost more than they bring.
+// Embree: the scenery as quadrilaterals, vehicles as instances of one mesh. This is the fastest of the ways tried: the
+// scenery in an instance of its own is slower to trace; one mesh of all vehicles is slower to update (rebuilt) or to
+// trace (refitted); better builds of the top level cost more time than they save.
 #include <embree3/rtcore.h>
 
 #include <algorithm>
@@ -14,9 +14,9 @@ namespace muro::bench {
 
 namespace {
 
-constexpr unsigned sides = 24;  // of the prism that stands for a wheel
+constexpr unsigned sides = 24;  // of the prism that represents a wheel
 
-/// Corners, and four of them for each quadrilateral.
+/// Corners, and the numbers of four corners for each quadrilateral.
 struct Mesh {
   std::vector<float> corners;
   std::vector<unsigned> quads;
@@ -38,7 +38,7 @@ struct Mesh {
     quad(o, o + 2, o + 6, o + 4);
     quad(o + 1, o + 5, o + 7, o + 3);
   }
-  /// Its axis is y.
+  /// Adds a wheel whose axis is y.
   void wheel(const Vec3& centre) {
     const unsigned o = size();
     for (const double side : {-0.5, 0.5})
@@ -53,7 +53,7 @@ struct Mesh {
   }
 };
 
-/// Rays of one call as Embree wants them.
+/// Frame and range of the rays of one call.
 struct Beam {
   Vec3 origin;
   Mat3 axes;

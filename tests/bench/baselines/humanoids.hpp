@@ -12,14 +12,14 @@
 
 namespace muro::bench {
 
-/// A body with the hinge that leads to it; what fixed joints hold to it is part of it.
+/// A body with the hinge that connects it to its parent. Links on fixed joints are part of their body.
 struct HumanoidBody {
   std::string name;
-  std::string joint;            ///< none for the trunk, which is the first
-  int parent = -1;              ///< smaller than its own number
+  std::string joint;            ///< empty for the trunk, which is the first body
+  int parent = -1;              ///< a smaller number than its own
   Pose origin{};                ///< in the parent's frame, with the hinge at 0
   Vec3 axis = Vec3::UnitX();    ///< unit, in the frame of the body
-  double effort = 0;            ///< N m, the most of its servo
+  double effort = 0;            ///< N m, limit of its servo
   Inertia inertia{};            ///< in the frame of the body, whose axes are principal
   std::vector<Shape> shapes{};  ///< boxes, balls and capsules
 };
@@ -37,7 +37,7 @@ struct HumanoidScene {
   double friction = 0.8;     ///< of everything
   std::vector<Pose> starts;  ///< of the trunks
   std::vector<std::vector<double>>
-      positions;  ///< rad, at the start; of each robot, of the hinge of each body but the trunk
+      positions;  ///< rad, at the start: for each robot, of the hinge of each body but the trunk
 
   std::size_t robots() const { return starts.size(); }
   std::size_t hinges() const { return bodies.size() - 1; }
@@ -48,18 +48,18 @@ struct HumanoidScene {
 class Humanoids {
  public:
   virtual ~Humanoids() = default;
-  /// What the servos of a robot hold from now on, rad, of each hinge.
+  /// Sets the positions that the servos of a robot hold from now on: rad, one for each hinge.
   virtual void command(std::size_t robot, std::span<const double> targets) = 0;
   virtual void run(int milliseconds) = 0;
   virtual Pose trunk(std::size_t robot) const = 0;
   virtual double position(std::size_t robot, std::size_t hinge) const = 0;  ///< rad
 };
 
-/// How MuJoCo is used.
+/// Options of MuJoCo.
 struct MujocoUse {
   const char* solver = "CG";
   const char* jacobian = "sparse";
-  bool world_each = false;  ///< a world for each robot, in which it is alone; otherwise one for all
+  bool world_each = false;  ///< one world for each robot; otherwise one world for all
 };
 /// MuJoCo with 4 iterations and elliptic cones.
 std::unique_ptr<Humanoids> mujoco_humanoids(const HumanoidScene& scene, const MujocoUse& use);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // MuJoCo: a generated model of the city and its vehicles, each a free chassis with four driven hinges. Memory grows
-// with the square of the number of vehicles and ends at 2 GB (2.2), so they are distributed over separate worlds.
+// with the square of the number of vehicles and is at most 2 GB (2.2), so the vehicles are in several worlds.
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ std::string model_of(const City& city, SolverSettings settings, int first, int n
       << "<size nconmax='" << 6 * n + 100 << "' njmax='" << 20 * n + 400 << "'/>"
       << "<compiler inertiafromgeom='false' angle='radian'/><worldbody>"
       << "<geom type='plane' size='0 0 1' friction='0.8'/>";
-  // its broadphase sorts bodies: scenery in bodies of its own is found faster than in the world's, but by one vehicle
+  // the broad phase finds scenery faster in bodies of its own than in the world's body, except with one vehicle
   for (const Block& b : city.blocks()) {
     const Vec3 half = 0.5 * b.lengths;
     if (n > 1)

@@ -12,8 +12,8 @@ namespace muro::bench {
 namespace {
 
 constexpr int iterations = 4;
-/// Links of a robot share a bit of MuJoCo's masks and do not collide; robots i and i + 30 do not either, and are far
-/// from one another.
+/// Number of bits of MuJoCo's masks. Links of a robot share a bit and do not collide. Robots i and i + 30 share one
+/// too, but are far from one another.
 constexpr int groups = 30;
 
 std::ostream& operator<<(std::ostream& out, const Vec3& v) { return out << v.x() << ' ' << v.y() << ' ' << v.z(); }
@@ -21,7 +21,7 @@ std::ostream& operator<<(std::ostream& out, const Quat& q) {
   return out << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z();
 }
 
-/// The text of a model.
+/// Writes the text of a model.
 class HumanoidsMjcf {
  public:
   HumanoidsMjcf(const HumanoidScene& scene, const MujocoUse& use, std::size_t robots) : scene_(scene) {

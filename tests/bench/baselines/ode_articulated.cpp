@@ -36,7 +36,7 @@ class ArticulatedVehicles final : public Team, OdeWorld {
   Pose pose(int vehicle) const override { return OdeWorld::pose(vehicle); }
 
  private:
-  void set_wheel_surface(const Vehicle&, int, dContact&) const override {}  // wheels roll by themselves
+  void set_wheel_surface(const Vehicle&, int, dContact&) const override {}  // wheels are bodies that roll
 
   std::vector<dJointID> hinges_;
 };

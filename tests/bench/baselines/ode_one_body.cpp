@@ -25,7 +25,7 @@ class OneBodyVehicles final : public Team, OdeWorld {
   Pose pose(int vehicle) const override { return OdeWorld::pose(vehicle); }
 
  private:
-  /// Across the axle the surface of the wheel runs backward at the speed of its rim; walls are not driven on.
+  /// Moves the surface of the wheel backward, across the axle, at the speed of its rim. Wheels do not drive on walls.
   void set_wheel_surface(const Vehicle& v, int wheel, dContact& contact) const override {
     const dReal* r = dBodyGetRotation(v.chassis);
     const Vec3 axle(r[1], r[5], r[9]);

@@ -5,7 +5,7 @@ namespace muro::bench {
 
 namespace {
 
-/// User data of a geom: the number of the vehicle and, from 1 on, of the wheel; scenery has none.
+/// User data of a geom: the number of its vehicle and, from 1 on, of its wheel; scenery has no user data.
 void* user_data(std::size_t vehicle, int wheel) {
   return reinterpret_cast<void*>((vehicle + 1) * 8 + std::size_t(wheel));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What both ODE programs share: a world set for speed, with the city in it.
+// Code that both ODE programs share: a world with fast settings, with the city in it.
 #pragma once
 
 #include <ode/ode.h>
@@ -29,7 +29,7 @@ class OdeWorld {
     dGeomID geoms[5] = {};
     WheelSpeeds speeds;
   };
-  /// A vehicle whose chassis collides; wheels are the caller's.
+  /// Adds a vehicle whose chassis collides; the caller adds the wheels.
   Vehicle& add_vehicle(const Pose& start, const Inertia& inertia);
   dGeomID add_wheel(Vehicle& vehicle, int wheel);
   static dBodyID add_body(dWorldID world, const Pose& pose, const Inertia& inertia);

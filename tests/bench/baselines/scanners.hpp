@@ -33,7 +33,7 @@ void drive(const City& city, double t, std::vector<Pose>& poses);
 class Scanners {
  public:
   virtual ~Scanners() = default;
-  /// Scans with all scanners from vehicles at `poses`; `moved`: since the last scan.
+  /// Scans with all scanners from vehicles at `poses`; `moved`: whether they have moved since the last scan.
   virtual void scan(std::span<const Pose> poses, bool moved) = 0;
   /// The range of a ray (m): the distance to the nearest surface, or the maximum range of the scanner.
   virtual double range(int vehicle, int ray) const = 0;
@@ -44,10 +44,10 @@ struct RayEngine {
   std::string name;
   bool embree = false;
   std::function<std::unique_ptr<Scanners>(const City&, const Pattern&, double range)> make;
-  double max_rays = 1e300;  ///< of a scan; larger ones are left out
+  double max_rays = 1e300;  ///< of a scan; larger scans are not measured
 };
 
-/// The engines that were found when this was built.
+/// Returns the engines that the build has found.
 std::vector<RayEngine> ray_baselines();
 
 /// `width`: rays in a call, 1, 8 or 16.

@@ -13,10 +13,10 @@ namespace muro::bench {
 class Team {
  public:
   virtual ~Team() = default;
-  /// What the drives of a vehicle's wheels hold from now on.
+  /// Sets the speeds that the drives of a vehicle's wheels hold from now on.
   virtual void command(int vehicle, WheelSpeeds speeds) = 0;
   virtual void run(int milliseconds) = 0;
-  /// Of the chassis' centre.
+  /// Returns the pose of the chassis' centre.
   virtual Pose pose(int vehicle) const = 0;
 };
 
@@ -24,7 +24,7 @@ class Team {
 struct SolverSettings {
   int steps = 1;
   int iterations = 4;  ///< of each step, if the engine iterates
-  /// Many more than needed: the solution of an engine's equations when neither number limits it.
+  /// Many more than needed, so that neither number limits the solution of the engine's equations.
   static constexpr SolverSettings converged() { return {4, 200}; }
 };
 
@@ -33,11 +33,11 @@ struct Engine {
   std::string name;
   bool one_body = false;  ///< a vehicle is one rigid body; otherwise its wheels are bodies of their own
   std::function<std::unique_ptr<Team>(const City&, SolverSettings)> make;
-  SolverSettings settings{};  ///< that it is measured with
-  int teams = 1;              ///< so many at once, each on a thread of its own
+  SolverSettings settings{};  ///< of the measurement
+  int teams = 1;              ///< number of teams at once, each on its own thread
 };
 
-/// The engines that were found when this was built.
+/// Returns the engines that the build has found.
 std::vector<Engine> baselines();
 
 std::unique_ptr<Team> bullet_raycast_vehicles(const City& city, SolverSettings settings);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Heightmaps through every collision algorithm: a slope against the plane that it is, ridges, and points of hills.
+// Heightmaps in every collision algorithm: a slope compared with its plane, ridges, and points of hills.
 #include <cstring>
 #include <random>
 
@@ -28,7 +28,7 @@ struct EveryCollisionOnHeightmaps : ::testing::TestWithParam<std::string> {
         values[r * columns + c] = float(height(p.x(), p.y()));
       }
   }
-  /// Of a robot of one shape at `pose`.
+  /// Returns the contacts of a robot of one shape at `pose`.
   std::vector<Contact> contacts_of(const Shape& shape, const Pose& pose, const Pose& at = {}) const {
     const std::int32_t counts[] = {std::int32_t(map.rows), std::int32_t(map.columns)};
     std::string bytes(sizeof counts + sizeof(float) * values.size(), '\0');
@@ -59,7 +59,7 @@ TEST_P(EveryCollisionOnHeightmaps, ASlopeTouchesAsThePlaneThatItIs) {
     for (int i = 0; i < 6; ++i) {
       const double x = place(random), y = place(random), roll = 3 * place(random), pitch = 3 * place(random);
       Pose pose = plane * Pose{{x, y, 0}, i == 0 ? from_rpy(0, 0, 0) : from_rpy(roll, pitch, 0)};
-      // as deep as it is at the height at which the plane touches it by a centimetre
+      // move the shape to the height at which its depth in the plane is one centimetre
       const std::vector<Contact> first = test::contacts_of(GetParam(), shape, pose, Shape::plane(), plane);
       ASSERT_FALSE(first.empty());
       pose.position += (test::deepest(first).depth - 0.01) * (at.orientation * normal);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes through every collision algorithm: as convex hulls, and exact.
+// Meshes in every collision algorithm: as convex hulls, and exact.
 #include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/collision/touching.hpp"
 #include "tests/support/allocation_counter.hpp"
@@ -13,7 +13,7 @@ using test::CollisionScene;
 struct EveryCollisionOfMeshes : ::testing::TestWithParam<std::string> {
   test::ScratchFolder folder;
 
-  /// A box with these lengths about its centre.
+  /// Returns the file of a box with these lengths about its centre.
   std::string box_file(const Vec3& lengths) const {
     std::ostringstream out;
     for (int i = 0; i < 8; ++i)
@@ -22,7 +22,7 @@ struct EveryCollisionOfMeshes : ::testing::TestWithParam<std::string> {
     out << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
     return folder.file("box.obj", out.str());
   }
-  /// Squares of 0.5 m at height 0, each of two triangles: open, from -2 to 2 along x and y.
+  /// Returns the file of squares of 0.5 m at height 0, each of two triangles: open, from -2 to 2 along x and y.
   std::string floor_file() const {
     std::ostringstream out;
     for (int i = 0; i <= 8; ++i)
@@ -34,7 +34,7 @@ struct EveryCollisionOfMeshes : ::testing::TestWithParam<std::string> {
       }
     return folder.file("floor.obj", out.str());
   }
-  /// A channel along x, open above: 2 m long, bottom from y -0.5 to 0.5 at height 0, walls 0.5 m thick and 1 m high.
+  /// Returns a channel along x, open above, 2 m long: bottom at height 0, y -0.5 to 0.5; walls 0.5 m thick, 1 m high.
   std::string channel_file() const {
     const double profile[8][2] = {{-1, -0.5}, {1, -0.5}, {1, 1}, {0.5, 1}, {0.5, 0}, {-0.5, 0}, {-0.5, 1}, {-1, 1}};
     std::ostringstream out;
@@ -142,7 +142,7 @@ TEST_P(EveryCollisionOfMeshes, ABoxOnAMeshAsItIsRestsOnItsCornersWithEveryNormal
           << x << ' ' << y << test::text_of(contacts);
 }
 
-/// One robot with gravity on scenery of one shape, pushed by contact.penalty.
+/// Robot of one link with gravity on scenery of one shape, pushed by contact.penalty.
 struct Standing : test::Scene {
   const RobotView* robot = nullptr;
 
@@ -154,7 +154,7 @@ struct Standing : test::Scene {
     use("contact.penalty", 0);
     build();
   }
-  /// `may_turn`: rad, within 4 s.
+  /// `may_turn`: limit of the rotation within 4 s, rad.
   void expect_stands(double height, const std::string& what, double may_turn = 1e-4) {
     run_for(1);
     const Pose settled = pose(*robot);
@@ -176,7 +176,7 @@ TEST_P(EveryCollisionOfMeshes, RobotsStandStillOnAMeshAsItIs) {
     scene.world().add_scenery("floor", {}, std::span<const Shape>(&floor, 1));
     scene.robot = &scene.add("robot", tree, at(0.1, -0.13, 0.25, from_rpy(0, 0, 0.3)));
     scene.finish(GetParam(), true);
-    // points of a cylinder come and go, and take their anchors along
+    // contact points of a cylinder change, and their anchors with them
     scene.expect_stands(0.25, name, name == std::string("cylinder") ? 2e-4 : 1e-4);
   }
 }
@@ -188,7 +188,7 @@ TEST_P(EveryCollisionOfMeshes, ARobotThatIsAMeshRestsOnAPlaneWhereTheClosedFormS
     scene.robot = &scene.add("robot", mesh_robot(box_file({0.5, 0.6, 0.5})), at(0.1, -0.13, 0.25, from_rpy(0, 0, 0.3)));
     scene.finish(GetParam(), exact);
     scene.expect_stands(0.25, exact ? "exact" : "convex");
-    // contact.penalty at 50 Hz, critically damped, steps of 1 ms: its README, Integration
+    // contact.penalty at 50 Hz, critically damped, steps of 1 ms: see its README, Integration
     const double w = 2 * M_PI * 50, h = 1e-3, softer = 1 + std::tanh(w * h) + w * w * h * h / 4;
     EXPECT_NEAR(0.25 - scene.pose(*scene.robot).position.z(), softer * 9.81 / (w * w), 1e-8);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pairs of shapes whose contacts have a closed form, seen through every collision algorithm.
+// Pairs of shapes whose contacts have a closed form, in every collision algorithm.
 #include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/collision/touching.hpp"
 
@@ -13,7 +13,7 @@ using test::deepest;
 struct EveryCollision : ::testing::TestWithParam<std::string> {
   Accuracy extension = test::accuracy_of(GetParam());
 
-  /// The deepest of the contacts of `shape` with `scenery`.
+  /// Checks the deepest contact of `shape` with `scenery`.
   void expect_deepest(const Shape& shape, const Pose& at, const Shape& scenery, const Pose& place, const Vec3& point,
                       const Vec3& normal, double depth) {
     const std::vector<Contact> contacts = contacts_of(GetParam(), shape, at, scenery, place);
@@ -23,7 +23,7 @@ struct EveryCollision : ::testing::TestWithParam<std::string> {
     EXPECT_LT((c.normal - normal).norm(), extension.normal) << c.normal.transpose();
     EXPECT_LT((c.point - point).norm(), extension.point) << c.point.transpose();
   }
-  /// Every point is there, once, and no other; all with this depth and normal.
+  /// Checks that the contacts are at these points, once each, all with this depth and normal.
   void expect_points(const Shape& shape, const Pose& at, const Shape& scenery, const Pose& place, double depth,
                      const Vec3& normal, const std::vector<Vec3>& points) {
     const std::vector<Contact> contacts = contacts_of(GetParam(), shape, at, scenery, place);

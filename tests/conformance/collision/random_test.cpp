@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random pairs of shapes through every collision algorithm, against collision.native, whose depth is the least by which
-// a pair can be parted.
+// Random pairs of shapes in every collision algorithm, compared with collision.native. Its depth is the smallest motion
+// that separates a pair.
 #include <random>
 
 #include "muro/base/bounds.hpp"
@@ -58,7 +58,7 @@ std::vector<Pair> pairs_of(ShapeKind a, ShapeKind b, int count, unsigned seed) {
   return pairs;
 }
 
-/// The contacts of each pair.
+/// Returns the contacts of each pair.
 std::vector<std::vector<Contact>> contacts_of(const std::string& algorithm, const std::vector<Pair>& pairs) {
   CollisionScene scene(algorithm);
   std::vector<const RobotView*> robots;
@@ -84,7 +84,7 @@ void make_shallow(std::vector<Pair>& pairs) {
 }
 
 struct EveryCollisionAtRandom : ::testing::TestWithParam<std::string> {
-  /// Nobody misses a pair or invents one, beside those that touch by less than `bound`, and depths differ by no more.
+  /// Checks that no pair is missed or invented, except where it overlaps by less than `bound`, and that depths agree.
   void expect_agreement(ShapeKind a, ShapeKind b, bool shallow, double bound) {
     std::vector<Pair> pairs = pairs_of(a, b, 200, unsigned(8 * int(a) + int(b)));
     if (shallow) make_shallow(pairs);
@@ -108,7 +108,7 @@ struct EveryCollisionAtRandom : ::testing::TestWithParam<std::string> {
     text << worst;
     RecordProperty("worst", text.str());
   }
-  double worst = 0;  ///< difference of depths, of the size
+  double worst = 0;  ///< largest difference of depths, as a fraction of the size
 };
 
 TEST_P(EveryCollisionAtRandom, AgreesWithNativeOnPairsThatOverlapALittle) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every collision algorithm owes a team: lists that depend on the poses alone, and on whom contacts belong to.
+// Promises of every collision algorithm for a team: contacts depend only on poses, and on which robot they belong to.
 #include <random>
 
 #include "muro/toolkit/rotations.hpp"
@@ -21,12 +21,12 @@ void expect_equal(const Contact& a, const Contact& b) {
   EXPECT_EQ(a.other_shape, b.other_shape);
 }
 
-/// Robots of all kinds on a field with obstacles, all so near that they touch.
+/// Robots of all kinds on a field with obstacles, so close that they touch.
 struct Crowd : CollisionScene {
   std::vector<const RobotView*> all;  ///< by name
   std::vector<bool> moved_by_forces;
 
-  /// `order[i]`: which robot is the i-th that is declared.
+  /// `order[i]`: number of the robot that is declared as the i-th.
   Crowd(const std::string& collision, const std::vector<int>& order, unsigned threads = 1) : CollisionScene(collision) {
     all.resize(order.size());
     moved_by_forces.resize(order.size());
@@ -201,7 +201,7 @@ TEST_P(EveryAllocationFreeCollision, AllocatesNothingOnceWarm) {
   EXPECT_EQ(test::allocations() - before, 0u);
 }
 
-/// One robot with gravity on a floor that is a box, pushed by contact.penalty.
+/// Robot of one link with gravity on a floor that is a box, pushed by contact.penalty.
 struct Standing : test::Scene {
   const RobotView* robot;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shapes that touch, as one collision algorithm sees them.
+// Contacts of two shapes, as one collision algorithm finds them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,13 +13,13 @@
 
 namespace muro::test {
 
-/// How exact an algorithm is, and what it cannot do; as in the README of its plugin.
+/// Accuracy of an algorithm, as in the README of its plugin.
 struct Accuracy {
-  double depth = 1e-9;   ///< m: most error where there is a closed form
+  double depth = 1e-9;   ///< m: largest error where there is a closed form
   double normal = 1e-9;  ///< rad
   double point = 1e-8;   ///< m
-  /// Most difference of the least depth of a random pair from collision.native's, of the size of the pair: where they
-  /// overlap by a hundredth of that at most, and where they overlap deeply.
+  /// Largest difference of the depth of a random pair from that of collision.native, as a fraction of the size of the
+  /// pair: `shallow` for overlaps of up to a hundredth of the size, `deep` for deep overlaps.
   double shallow = 1e-9, deep = 1e-9;
 };
 
@@ -33,7 +33,7 @@ inline Accuracy accuracy_of(const std::string& algorithm) {
   return known == accuracies.end() ? Accuracy{} : known->second;
 }
 
-/// All collision algorithms that promise these capabilities.
+/// Returns all collision algorithms that promise these capabilities.
 inline std::vector<std::string> collisions_that_promise(std::uint32_t capabilities) {
   std::vector<std::string> ids = algorithms_of("collision");
   std::erase_if(ids, [&](const std::string& id) {
@@ -42,7 +42,7 @@ inline std::vector<std::string> collisions_that_promise(std::uint32_t capabiliti
   return ids;
 }
 
-/// The contacts of a robot of one shape with a piece of scenery of another.
+/// Returns the contacts of a robot of one shape with a piece of scenery of another.
 inline std::vector<Contact> contacts_of(const std::string& algorithm, const Shape& shape, const Pose& at,
                                         const Shape& scenery, const Pose& place) {
   CollisionScene scene(algorithm);
@@ -58,7 +58,7 @@ inline const Contact& deepest(const std::vector<Contact>& contacts) {
                            [](const Contact& a, const Contact& b) { return a.depth < b.depth; });
 }
 
-/// For messages.
+/// Returns the contacts as text for messages.
 inline std::string text_of(const std::vector<Contact>& contacts) {
   std::ostringstream out;
   out.precision(10);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is known of noise, motors and radio without simulating them: closed forms, data sheets, measurements.
+// Facts about noise, motors and radio that are known without simulation: closed forms, data sheets, measurements.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace muro::known_answers {
 
-/// How far a run is from what is known.
+/// Difference of a run from the known value.
 struct Found {
   double error = 0;
   double tolerance = 0;
@@ -18,9 +18,9 @@ struct Found {
 struct Answer {
   std::string_view plugin;
   std::string_view name;     ///< a sentence
-  std::string_view source;   ///< of what is known
+  std::string_view source;   ///< of the known value
   std::string_view unit;     ///< of the error
-  std::string_view allowed;  ///< what the tolerance is
+  std::string_view allowed;  ///< meaning of the tolerance
   Found (*run)() = nullptr;
 };
 
@@ -29,16 +29,16 @@ std::vector<Answer> servo_answers();
 std::vector<Answer> radio_answers();
 std::vector<Answer> all_answers();
 
-/// What users of another simulator have found wrong there, and what holds against it here.
+/// A fault that users of another simulator have found in it, and the answer that shows that muro does not have it.
 struct PeerBug {
   std::string_view peer;  ///< "Gazebo", with the number of the issue
   std::string_view bug;
-  std::string_view answer;  ///< the name of an Answer, or of a case of tests/conformance/sensor
+  std::string_view answer;  ///< name of an Answer, or of a case of tests/conformance/sensor
 };
 std::vector<PeerBug> peer_bugs();
 
-/// Relative standard deviations of an estimate from `n` independent samples, three of them: of a standard deviation,
-/// and of a variance.
+/// Three relative standard deviations of an estimate from `n` independent samples: of a standard deviation, and of a
+/// variance.
 inline double three_sigma_of_deviation(double n) { return 3 / std::sqrt(2 * n); }
 inline double three_sigma_of_variance(double n) { return 3 * std::sqrt(2 / n); }
 /// Three standard deviations of the ratio of `n` trials of probability `p`.

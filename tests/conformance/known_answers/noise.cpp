@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// sensor.error, put on sensors of a robot and on constant readings.
+// sensor.error on sensors of a robot and on constant readings.
 #include "tests/conformance/known_answers/answer.hpp"
 #include "tests/support/bodies.hpp"
 
@@ -11,7 +11,7 @@ using Errors = std::map<std::string, ParameterInput>;
 
 constexpr Key<double> truth{"reading", "1", "array: true values"}, read{"reading.measured", "1", ""};
 
-/// `size` readings of the same true value, independent of each other.
+/// Independent readings of one true value, `size` of them.
 struct Readings : test::Scene {
   Readings(std::size_t size, double value, double rate, Errors errors, std::uint64_t seed = 1) : Scene(seed) {
     const RobotView& robot = add("r", test::ball(1, 0.1, 0.5));
@@ -28,7 +28,7 @@ struct Readings : test::Scene {
   std::span<const double> now() { return world().values(device, read); }
   std::vector<double> at_once() { return {now().begin(), now().end()}; }
   void next() { run_for(period_); }
-  /// The first reading of so many samples.
+  /// Returns `count` samples of the first reading.
   std::vector<double> series(std::size_t count) {
     std::vector<double> all;
     for (; all.size() < count; next()) all.push_back(now()[0]);
@@ -91,7 +91,7 @@ Found allan_of_walk() {
           allan_tolerance(count, m)};
 }
 
-/// Of a GPS part: s 1.5 m, T 60 s; the correlation over 30 s.
+/// Correlation over 30 s for a GPS part with s 1.5 m and T 60 s.
 Found gauss_markov(double rate) {
   constexpr std::size_t devices = 30000;
   Readings r(devices, 0, rate, {{"gauss_markov_sigma", 1.5}, {"gauss_markov_time", 60.0}});
@@ -104,14 +104,14 @@ Found gauss_markov(double rate) {
 Found gauss_markov_at_1_hz() { return gauss_markov(1); }
 Found gauss_markov_at_10_hz() { return gauss_markov(10); }
 
-/// By the density of what drives it: s = K sqrt(T / 2).
+/// Deviation for a given density of the driving noise: s = K sqrt(T / 2).
 Found driven_gauss_markov() {
   Readings r(samples, 0, 1, {{"gauss_markov_density", 0.05}, {"gauss_markov_time", 8.0}});
   const std::vector<double> y = r.at_once();
   return {std::abs(std::sqrt(mean_product(y, y)) / (0.05 * 2) - 1), three_sigma_of_deviation(samples)};
 }
 
-/// The kurtosis of normal numbers is 3, of uniform ones 1.8; the variance of its estimate is 24 / n.
+/// Kurtosis of the bias: 3 for normal numbers, 1.8 for uniform ones; the variance of its estimate is 24 / n.
 Found turn_on_bias() {
   Readings r(samples, 0, 10, {{"turn_on_bias_tolerance", 3.0}});
   const std::vector<double> y = r.at_once();
@@ -131,7 +131,7 @@ Found saturation() {
   return {std::abs(r.now()[0] - 4.363323), 0};
 }
 
-/// Of a converter of 12 bits from -10 to 10: no reading is off by more than half a step.
+/// Error of a converter of 12 bits from -10 to 10: no reading is off by more than half a step.
 Found converter() {
   double worst = 0;
   for (int k = 0; k < 41; ++k) {
@@ -142,7 +142,7 @@ Found converter() {
   return {worst, 0.5 * (1 + 1e-9)};
 }
 
-/// A robot at 1 m/s; the position by satellite 0.03 s late at 100 Hz.
+/// Delay of a robot that moves at 1 m/s: its GPS position is 0.03 s late at 100 Hz.
 Found delay() {
   test::Scene s;
   const RobotView& robot = s.add("r", test::ball(1, 0.1, 0.5));
@@ -165,7 +165,7 @@ Found delay() {
   return {truths.back() == truths.front() ? 1 : worst, 0};
 }
 
-/// First order, a ramp of slope 1/s, w = 2 pi 3/s: y = t - 1/w + exp(-w t)/w.
+/// Filter of first order with a ramp of slope 1/s as input, w = 2 pi 3/s: y = t - 1/w + exp(-w t)/w.
 Found bandwidth() {
   test::Scene s;
   const RobotView& robot = s.add("r", test::ball(1, 0.1, 0.5), {}, {{1, 0, 0}, {0, 0, 0}});

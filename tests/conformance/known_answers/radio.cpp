@@ -47,7 +47,7 @@ struct Radios : test::Scene {
   std::vector<Item> radios;
 };
 
-/// Received power at `distance` (m), dBm.
+/// Returns the received power at `distance` (m), dBm.
 double power_at(double distance, Settings settings) {
   Radios s;
   s.place({0, 0, 0});
@@ -65,7 +65,7 @@ Found friis() {
   return {std::max(std::abs(loss + 40.05), std::abs(at_5 + 46.68)), 0.005};
 }
 
-/// How far a message gets, by bisection, m.
+/// Returns the largest distance that a message reaches, m; found by bisection.
 double range_of(const Settings& settings) {
   double near = 1, far = 2000;
   while (far - near > 1e-3) {
@@ -94,7 +94,7 @@ Settings settings_of_rfcomms() {
 Found power_of_rfcomms() { return {std::abs(power_at(50, settings_of_rfcomms()) + 55.5), 0.05}; }
 Found range_of_rfcomms() { return {std::abs(range_of(settings_of_rfcomms()) - 1202), 0.5}; }
 
-/// At half, once and twice the range without shadowing; n 2.5, s 10 dB. The worst, in units of three deviations.
+/// Losses at half, once and twice the range without shadowing; n 2.5, s 10 dB. The worst, in units of three deviations.
 Found shadowing() {
   const double range = std::pow(10, (0 - 40 + 85) / 25.0), messages = 3000, expected[] = {0.774, 0.5, 0.226};
   Radios s(3);
@@ -115,7 +115,7 @@ Found shadowing() {
   return {worst, 1};
 }
 
-/// 100 bytes at 6, 8 and 10 dB: 1 - (1 - 0.5 erfc(sqrt(snr)))^800. The worst, in units of three deviations.
+/// Losses of 100 bytes at 6, 8 and 10 dB: 1 - (1 - 0.5 erfc(sqrt(snr)))^800. The worst, in units of three deviations.
 Found packet_errors() {
   Radios s;
   for (int i = 0; i < 4; ++i) s.place({0.25 * i, 0, 0});
@@ -138,7 +138,7 @@ Found packet_errors() {
   return {worst, 1};
 }
 
-/// 127 + 6 bytes at 250 kbit/s, and 10 m of way.
+/// Time for 127 + 6 bytes at 250 kbit/s over 10 m.
 Found time_on_air() {
   Radios s;
   s.place({0, 0, 0});
@@ -149,8 +149,8 @@ Found time_on_air() {
   return {std::abs(s.last(1).received - s.last(1).sent - 4.256e-3 - 10 / light), 1e-15};
 }
 
-/// A queue of one server of fixed service time, load 0.5: u / (2 (1 - u)) services, less 1/20 since messages come at
-/// whole steps of a twentieth of a service.
+/// Waiting time in a queue of one server with fixed service time, load 0.5: u / (2 (1 - u)) services. 1/20 less, since
+/// messages come at whole steps of a twentieth of a service.
 Found queue() {
   Radios s;
   s.place({0, 0, 0});
@@ -171,7 +171,7 @@ Found queue() {
   return {std::abs(waited / count / 0.020 - 0.95 * 0.5), 0.05};
 }
 
-/// Twice as much as 100 kbit/s for a second; in bit/s above the capacity, 0 where it is not.
+/// Sends twice as much as 100 kbit/s can carry for a second. The error is in bit/s above the capacity, or 0.
 Found capacity() {
   Radios s;
   s.place({0, 0, 0});
@@ -182,7 +182,7 @@ Found capacity() {
   return {carried < 99e3 ? 1 : std::max(0.0, carried - 100e3), 0};
 }
 
-/// Messages that come through a wall, and that do not come out of the own body.
+/// Messages that pass through a wall, and messages that do not leave the sender's own body.
 Found walls() {
   Radios s;
   s.place({0, 0, 1});
@@ -196,7 +196,7 @@ Found walls() {
   return {double(s.counters(1).received) + double(1 - s.counters(2).received), 0};
 }
 
-/// What is lost follows from seed, sender, receiver and message: a third robot changes nothing.
+/// Losses depend only on seed, sender, receiver and message: a third robot changes nothing.
 Found losses_repeat() {
   const auto received = [](bool third) {
     Radios s(5);
@@ -211,7 +211,7 @@ Found losses_repeat() {
   return {received(true) == received(false) && received(true).back() > 0 ? 0.0 : 1.0, 0};
 }
 
-/// Between walls; the largest difference of power from a to b and from b to a.
+/// Largest difference between the power from a to b and from b to a, among walls.
 Found reciprocity() {
   constexpr int robots = 12;
   double worst = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// motor.servo with motors driven by a voltage, at motion.simplified; other motions: plugins/motor/servo.
+// motor.servo with motors driven by a voltage, in motion.simplified; for other motions see plugins/motor/servo.
 #include "tests/conformance/known_answers/answer.hpp"
 #include "tests/support/scene.hpp"
 
@@ -14,7 +14,7 @@ constexpr double kt = 1.622, resistance = 3.949, armature = 0.01195, coulomb = 0
 constexpr double mass = 0.49, length = 0.1, weight = mass * 9.81 * length;
 constexpr double bob_inertia = mass * length * length + 1e-7;
 
-/// A pendulum on a fixed base about a level axis, or about the vertical, which no weight turns.
+/// A pendulum on a fixed base about a level axis, or about the vertical axis, where weight has no torque.
 struct Bench : test::Scene {
   enum class Axis : std::uint8_t { level, vertical };
   Bench(const Parameters& servo, Axis axis, double rate = 1000, double start = 0) {
@@ -34,7 +34,7 @@ struct Bench : test::Scene {
   }
   double& of(const Key<double>& key) { return world().value("r/joint", key); }
   double& of(const char* name) { return of(Key<double>{name, "", ""}); }
-  /// At full voltage in the positive direction from now on.
+  /// Applies the full voltage in the positive direction from now on.
   void full_voltage() { of(keys::joint_position_target) = 1e5; }
 };
 
@@ -61,7 +61,7 @@ Found stall_torque() {
   return {std::abs(stall - (kt * 12 / resistance - coulomb)), 1e-12};
 }
 
-/// Greatest difference to w0 (1 - exp(-t / tau)), tau with the link's inertia.
+/// Returns the largest difference from w0 (1 - exp(-t / tau)), tau with the link's inertia.
 double step_error(double rate) {
   const double w0 = no_load_speed(12), tau = (bob_inertia + armature) / (kt * kt / resistance + viscous);
   Bench b(mx64(12), Bench::Axis::vertical, rate);
@@ -76,7 +76,7 @@ double step_error(double rate) {
 Found step_at_10_khz() { return {step_error(10000), 7.5e-3}; }
 Found step_halves() { return {std::abs(step_error(5000) / step_error(10000) - 2), 0.2}; }
 
-/// At 1 .. 15 V without load: Rhoban/bam, atomic/data/velocity_mx64.json, rad/s.
+/// Speeds without load at 1 .. 15 V, rad/s: Rhoban/bam, atomic/data/velocity_mx64.json.
 Found measured_speeds() {
   constexpr double measured[] = {0.53198, 1.12073, 1.70456, 2.29023, 2.87867, 3.46557, 4.05738, 4.63814,
                                  5.22198, 5.81624, 6.40007, 7.00109, 7.60517, 8.19146, 8.77406};
@@ -85,7 +85,7 @@ Found measured_speeds() {
   return {worst, 0.021 * measured[14]};
 }
 
-/// Wherever m g l |sin q| is at most the budget, for 3 s.
+/// Drift within 3 s at angles where m g l |sin q| is at most the friction budget.
 Found sticking() {
   const double most = 0.2;
   double drift = 0;

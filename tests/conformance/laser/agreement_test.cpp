@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Laser methods against each other, on scenes that have no closed form: laser.raycast is exact, and tells what the
-// others may read: its own distance, or, where there is an edge within their blur, one from the other side.
+// Laser methods compared with each other, in scenes without a closed form. laser.raycast is exact and shows what the
+// others may read: its own distance, or, at an edge within their blur, a distance from the other side of the edge.
 #include <algorithm>
 
 #include "muro/toolkit/rotations.hpp"
@@ -20,9 +20,9 @@ std::vector<std::string> others() {
 }
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryOtherLaser, testing::ValuesIn(others()), method_name);
 
-constexpr double places[] = {-1.5, -0.75, 0, 0.75, 1.5};  ///< around a ray, in pixels
+constexpr double places[] = {-1.5, -0.75, 0, 0.75, 1.5};  ///< offsets around a ray, in pixels
 
-/// The directions of a grid, each with those around it, as far apart as a pixel (rad).
+/// Returns the directions of a grid, each with those around it at `places`; `pixel`: size of a pixel, rad.
 std::vector<double> with_neighbours(const Settings& grid, double pixel) {
   const auto number = [&](const char* name, double otherwise) {
     const auto found = grid.find(name);
@@ -47,9 +47,9 @@ std::vector<double> with_neighbours(const Settings& grid, double pixel) {
 
 struct Difference {
   double median = 0;    ///< m
-  double worst = 0;     ///< where nothing steps within a pixel and a half: beyond what is allowed, m
-  double invented = 0;  ///< fraction of readings that are neither side of a step
-  double outside = 0;   ///< fraction of readings nearer or farther than all that is there
+  double worst = 0;     ///< m, beyond the allowed error, where there is no step within a pixel and a half
+  double invented = 0;  ///< fraction of readings that lie on neither side of a step
+  double outside = 0;   ///< fraction of readings nearer or farther than all surfaces there
   double off = 0;       ///< fraction of readings that differ by more than a centimetre
 };
 
@@ -70,7 +70,7 @@ Difference compare(Room& s, std::size_t tried, std::size_t exact, const Bound& b
     }
     const double allowed = bound.absolute + bound.relative * middle;
     const bool smooth = high - low < 0.05 * middle;
-    // between pixels a curve is taken for its chord
+    // between pixels a method reads the chord of a curve
     const auto bend = [&](std::size_t a, std::size_t b) { return std::abs(1 / r[a] - 2 / middle + 1 / r[b]); };
     const double curved = bound.blur > 0 ? middle * middle * std::max(bend(10, 14), bend(2, 22)) : 0;
     if (smooth) d.worst = std::max(d.worst, error - allowed - curved);
@@ -84,7 +84,7 @@ Difference compare(Room& s, std::size_t tried, std::size_t exact, const Bound& b
   return d;
 }
 
-/// The rays of a scan, and the angle (rad) between neighbours.
+/// Rays of a scan, and the angle (rad) between neighbours.
 struct ScanPattern {
   Settings grid;
   double spacing;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// laser.auto chooses by measuring, says so, and keeps what it chose.
+// laser.auto measures to choose a method, reports its choice, and keeps it.
 #include "tests/conformance/laser/room.hpp"
 
 namespace muro {

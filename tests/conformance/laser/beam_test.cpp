@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Beams that are wider than a line, and what noise makes of their incidence.
+// Beams that are wider than a line, and the effect of their incidence on noise.
 #include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/laser/room.hpp"
 
@@ -24,7 +24,7 @@ TEST_P(EveryBeam, TellsTheIncidenceOnAWall) {
 
 TEST_P(EveryBeam, ReadsBetweenBothSidesOfAnEdgeThatLiesInIt) {
   Room s;
-  s.put("near", Shape::box({0.2, 4, 4}), {{2.1, 2, 1}, Quat::Identity()});  // its edge straight ahead
+  s.put("near", Shape::box({0.2, 4, 4}), {{2.1, 2, 1}, Quat::Identity()});  // with its edge straight ahead
   s.put("far", Shape::box({0.2, 20, 20}), {{4.1, 0, 1}, Quat::Identity()});
   Settings narrow{{"rays", std::int64_t(401)}, {"min_angle", -0.02}, {"max_angle", 0.02}};
   s.add_laser(GetParam(), narrow);
@@ -40,7 +40,7 @@ TEST_P(EveryBeam, ReadsBetweenBothSidesOfAnEdgeThatLiesInIt) {
   EXPECT_NEAR(middle, (2 / 4.0 + 4 / 16.0) / lights, 0.3) << "half of the beam on either side, by their light";
 }
 
-/// facts/scip2.md: about 8 % of depth edges show a reading between both sides.
+/// Share of edges with a reading between both sides: about 8 % (facts/scip2.md).
 TEST(AUrg, ReadsBetweenBothSidesAtAFewEdges) {
   int edges = 0, mixed = 0;
   for (int turn = 0; turn < 18; ++turn) {
@@ -66,7 +66,7 @@ TEST(AUrg, ReadsBetweenBothSidesAtAFewEdges) {
   EXPECT_NEAR(double(mixed) / edges, 0.08, 0.02);
 }
 
-/// facts/scip2.md: 2.1 mm at 0 to 20 degrees, 2.5 at 20 to 40, 4.7 at 40 to 60; neighbours correlated by 0.52.
+/// Noise: 2.1 mm at 0 to 20 degrees, 2.5 at 20 to 40, 4.7 at 40 to 60; neighbours correlated by 0.52 (facts/scip2.md).
 TEST(AUrg, IsNoisierWhereItsBeamMeetsAWallAtASlant) {
   Room s;
   s.put("wall", Shape::box({0.2, 20, 20}), {{0.9, 0, 1}, Quat::Identity()});

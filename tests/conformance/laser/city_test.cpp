@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The city of the benchmarks: laser.zbuffer beside laser.raycast, as devices are.
+// The city of the benchmarks: laser.zbuffer compared with laser.raycast, with the rays of real scanners.
 #include <algorithm>
 
 #include "muro/toolkit/rotations.hpp"
@@ -16,8 +16,8 @@ struct Errors {
   double share_of_edges = 0;
 };
 
-/// A scanner 0.22 m above the ground on vehicles of a city with 100; errors without rays that have an edge within a
-/// pixel: where the exact reading bends there.
+/// Returns the errors of a scanner 0.22 m above the ground on vehicles of a city with 100. Rays with an edge within a
+/// pixel do not count: there the exact reading bends.
 Errors errors_in_the_city(const Settings& settings, double spacing, double supersampling, double tilt) {
   std::vector<double> errors;
   std::size_t rays = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every laser method against distances that can be written down.
+// Every laser method compared with distances that have a closed form.
 #include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/laser/room.hpp"
 #include "tests/support/files.hpp"
@@ -12,13 +12,13 @@ using namespace test;
 class EveryLaser : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryLaser, testing::ValuesIn(laser_methods()), method_name);
 
-/// The distance to the inner faces of the furnished room, level from `from` along `heading`.
+/// Returns the distance to the inner faces of the furnished room, level from `from` along `heading`.
 double to_walls(const Vec3& from, double heading) {
   const double c = std::cos(heading), s = std::sin(heading);
   return std::min((std::copysign(5, c) - from.x()) / c, (std::copysign(4, s) - from.y()) / s);
 }
 
-/// The distance to its pillar, or infinity.
+/// Returns the distance to its pillar, or 1e9 if there is no hit.
 double to_pillar(const Vec3& from, double heading) {
   const Eigen::Vector2d to(2 - from.x(), 2 - from.y()), d(std::cos(heading), std::sin(heading));
   const double along = to.dot(d), beside2 = to.squaredNorm() - along * along;
@@ -46,7 +46,7 @@ TEST_P(EveryLaser, ReadsTheWallsOfARoomAllTheWayRound) {
       const bool edge = std::abs(bend) * exact(0) > 0.01;
       edges += edge;
       if (edge) continue;
-      // between pixels a curve is taken for its chord
+      // between pixels a method reads the chord of a curve
       const double curved = 0.25 * std::abs(bend) * exact(0) * exact(0);
       EXPECT_NEAR(s.ranges(0)[i], exact(0), bound.absolute + bound.relative * exact(0) + curved)
           << i << " of " << degrees;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every laser method over ground from the file of a heightmap.
+// Every laser method over ground from a heightmap file.
 #include <algorithm>
 
 #include "muro/toolkit/rotations.hpp"
@@ -13,7 +13,7 @@ using namespace test;
 class EveryLaserOnGround : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryLaserOnGround, testing::ValuesIn(laser_methods()), method_name);
 
-/// m: of a value of a picture of 16 bits that is 8 m high.
+/// m: resolution of a picture of 16 bits that is 8 m high.
 constexpr double rounding = 8.0 / 65535;
 
 /// An inclined plane of 32 x 32 m, from 0 to 8 m high.
@@ -36,7 +36,7 @@ TEST_P(EveryLaserOnGround, ReadsAnInclinedPlane) {
       const Vec3 d = from_rpy(0.1, 0.2, 0.5) * Vec3(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
       const double down = 0.25 * d.x() - d.z(), exact = 2 / down;
       const Vec3 point = Vec3(0, 0, 6) + exact * d;
-      if (down < 0.25 || exact > 19 || point.head<2>().cwiseAbs().maxCoeff() > 13) continue;  // away from the rim
+      if (down < 0.25 || exact > 19 || point.head<2>().cwiseAbs().maxCoeff() > 13) continue;  // not near the rim
       const int ray = row * 80 + column;
       EXPECT_NEAR(s.ranges(0)[ray], exact, (rounding + 1e-5) / down + bound.absolute + bound.relative * exact);
       EXPECT_EQ(s.hits(0)[ray], hill);

@@ -64,7 +64,7 @@ ObjectId Room::put_heightmap(const std::string& name, const Vec3& size,
                              const std::function<double(double, double)>& height, const Pose& at) {
   constexpr std::size_t nodes = 129;
   std::vector<std::uint16_t> pixels;
-  for (std::size_t row = nodes; row-- > 0;)  // the first is at +y
+  for (std::size_t row = nodes; row-- > 0;)  // the first row is at +y
     for (std::size_t column = 0; column < nodes; ++column) {
       const double x = (double(column) / (nodes - 1) - 0.5) * size.x(),
                    y = (double(row) / (nodes - 1) - 0.5) * size.y();
@@ -78,7 +78,7 @@ ObjectId Room::put_heightmap(const std::string& name, const Vec3& size,
 std::size_t Room::add_laser(const std::string& method, const Settings& settings) {
   sensors_.push_back(add_sensor_object(*carrier, "laser" + std::to_string(sensors_.size()), carrier->base()));
   lasers_.push_back({method, with({{"max_range", 20.0}}, settings)});
-  // what it is by itself depends on the machine: auto_test.cpp
+  // its own choice depends on the machine: see auto_test.cpp
   if (method == "laser.auto") lasers_.back().settings.try_emplace("method", std::string("raycast"));
   if (method == "laser.zbuffer" || method == "laser.auto") lasers_.back().settings["device"] = std::string("software");
   return sensors_.size() - 1;

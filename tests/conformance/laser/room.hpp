@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes that laser scanners look at.
+// Scenes for laser scanners.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,30 +15,30 @@ namespace muro::test {
 using std::numbers::pi;
 using Settings = std::map<std::string, ParameterInput>;
 
-/// The ids of all laser scanners of the build.
+/// Returns the ids of all laser scanners of the build.
 std::vector<std::string> laser_methods();
-/// For the names of tests.
+/// Returns the method for the name of a test.
 std::string method_name(const testing::TestParamInfo<std::string>& test);
 
-/// `more` over `settings`.
+/// Returns `settings` with `more`, which has priority.
 Settings with(Settings settings, const Settings& more);
 
-/// A carrier without shapes, any number of scanners on it, and things around it.
+/// A carrier without shapes, with any number of scanners on it, and objects around it.
 struct Room : Scene {
   const RobotView* carrier = nullptr;
 
   explicit Room(const Pose& at = {{0, 0, 1}, Quat::Identity()});
 
   ObjectId put(const std::string& name, const Shape& shape, const Pose& at);
-  /// Walls with their inner faces at x = +-5 and y = +-4, 3 m high, a pillar of radius 0.5 at (2, 2), flat ground at z
-  /// = 0.
+  /// Adds walls with inner faces at x = +-5 and y = +-4, 3 m high, a pillar of radius 0.5 at (2, 2), flat ground at z =
+  /// 0.
   void furnish();
-  /// Boxes, balls, cylinders, capsules anywhere about, in scenery and as robots, but none within a metre.
+  /// Adds boxes, balls, cylinders and capsules at random places, as scenery and as robots, but none within a metre.
   void scatter(unsigned seed, int count);
-  /// Ground of 129 x 129 nodes over `size` (m), around the origin, with the height (m) 0 to size.z at x, y (m).
+  /// Adds ground of 129 x 129 nodes over `size` (m) around the origin; `height`: 0 to size.z (m) at x, y (m).
   ObjectId put_heightmap(const std::string& name, const Vec3& size, const std::function<double(double, double)>& height,
                          const Pose& at = {});
-  /// A scanner beside those that are there; known by its number. All have a range of 20 m unless told.
+  /// Adds a scanner and returns its number. The range is 20 m unless `settings` give another one.
   std::size_t add_laser(const std::string& method, const Settings& settings);
   /// Connects all algorithms and runs for `seconds`.
   void build_and_run(double seconds = 0.005);
@@ -61,20 +61,20 @@ struct Room : Scene {
   std::vector<Laser> lasers_;
 };
 
-/// The scanner of the URG-04LX: 682 rays at 2 pi / 1024.
+/// Returns the scanner of the URG-04LX: 682 rays at 2 pi / 1024.
 Settings urg();
-/// 100 x 100 rays in 60 x 60 degrees.
+/// Returns 100 x 100 rays in 60 x 60 degrees.
 Settings grid_100();
 
-/// Where a method may differ from exact rays: its own error on a surface, and the angle (rad) within which it may take
-/// one side of an edge for the other.
+/// Limits of the difference between a method and exact rays: its own error on a surface, and the angle (rad) within
+/// which it may read one side of an edge instead of the other.
 struct Bound {
   double relative = 0, absolute = 0;  ///< of the range; m
   double blur = 0;
 };
-/// For a scanner whose neighbouring rays are `spacing` (rad) apart, with `supersampling` pixels for each ray. The
-/// pixels of a depth image are spacing / supersampling wide; its depths are single-precision floats, interpolated over
-/// triangles; circles are polygons that lie 0.2 mm inside of them.
+/// Returns the bound for a scanner with `spacing` (rad) between neighbouring rays and `supersampling` pixels for each
+/// ray. Pixels of a depth image are spacing / supersampling wide. Its depths are single-precision floats, interpolated
+/// over triangles; circles are polygons that lie 0.2 mm inside of them.
 Bound bound_of(const std::string& method, double spacing, double supersampling);
 
 }  // namespace muro::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Laser methods keep what every algorithm promises: same bits, state in properties.
+// Promises of every algorithm, kept by laser methods: same bits, state in properties.
 #include "tests/conformance/laser/room.hpp"
 
 namespace muro {
@@ -10,7 +10,7 @@ using namespace test;
 class EveryLasersState : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Conformance, EveryLasersState, testing::ValuesIn(laser_methods()), method_name);
 
-/// Three scanners of a kind among robots that drive.
+/// Three scanners of one method among robots that drive.
 struct Crowd : Room {
   explicit Crowd(const std::string& method) {
     add_ground();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scans that take their time, on a robot that drives.
+// Scans that take time, on a robot that drives.
 #include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/laser/room.hpp"
 
@@ -15,7 +15,7 @@ constexpr int sweep_rays = 240;
 const Settings sweep_settings{
     {"rays", std::int64_t(sweep_rays)}, {"min_angle", -2.0}, {"max_angle", 2.0}, {"max_range", 30.0}};
 
-/// A room without corners in sight, and a carrier that drives an arc in it: 1 m/s, 2 rad/s.
+/// A room without visible corners, and a carrier that drives an arc in it: 1 m/s, 2 rad/s.
 struct Drive : Room {
   const double v = 1, w = 2;
 
@@ -28,12 +28,12 @@ struct Drive : Room {
     build_and_run(0.0005);
     world().value(carrier->base(), keys::command_twist) = {{v, 0, 0}, {0, 0, w}};
   }
-  /// Where the carrier is at t (s), and which way it looks.
+  /// Returns position (x, y) and heading of the carrier at t (s).
   Vec3 at(double t) const {
     const double r = v / w;
     return {r * std::sin(w * t), r * (1 - std::cos(w * t)), w * t};
   }
-  /// What a ray at `azimuth` reads at t: the wall at x = 6.
+  /// Returns the reading of a ray at `azimuth` at t: the wall at x = 6.
   double exact(double t, double azimuth) const {
     const Vec3 pose = at(t);
     const double c = std::cos(pose.z() + azimuth);
@@ -42,7 +42,7 @@ struct Drive : Room {
 };
 
 double azimuth_of(int ray) { return -2 + 4.0 * ray / (sweep_rays - 1); }
-/// When a ray is taken in a scan of 0.1 s that begins at `start`: a turn of the mirror.
+/// Returns the time of a ray in a scan of 0.1 s, a turn of the mirror, that begins at `start`.
 double time_of(int ray, double start) { return start + 0.1 * (azimuth_of(ray) + 2) / (2 * pi); }
 
 TEST_P(EverySweep, TakesEachRayAtItsOwnTimeAlongThePathOfTheDevice) {
@@ -57,7 +57,7 @@ TEST_P(EverySweep, TakesEachRayAtItsOwnTimeAlongThePathOfTheDevice) {
     if (expected > 12) continue;
     worst = std::max(worst, std::abs(s.ranges(0)[i] - expected));
   }
-  // a slice is taken at its middle: at most half of 10 ms off, in which a far wall moves by 0.06 m and more at a slant
+  // a slice is taken at its middle: at most half of 10 ms off; by then a far wall moves by 0.06 m, or more at a slant
   EXPECT_LT(worst, exact ? 1e-9 : 0.5) << "exact for rays, by slices for pictures";
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Motions with `attitude: exact`: tops on which no torque acts, against Jacobi's elliptic functions for their spin
-// (Landau and Lifshitz, Mechanics, section 37) and against an integration in steps of 20 us for their attitude.
+// Motions with `attitude: exact`: tops without torque. Their spin is compared with Jacobi's elliptic functions (Landau
+// and Lifshitz, Mechanics, section 37), their attitude with an integration in steps of 20 us.
 #include <gtest/gtest.h>
 
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
@@ -29,7 +29,7 @@ State rate_of(const State& s) {
   return {0.5 * turn.coeffs(), momentum.cross(s.spin).cwiseQuotient(moments)};
 }
 
-/// Runge and Kutta's method of fourth order.
+/// Integrates by the fourth-order method of Runge and Kutta.
 State integrated(State s, double duration) {
   const int steps = int(duration / 2e-5);
   const double h = duration / steps;
@@ -50,7 +50,7 @@ std::vector<std::string> motions_with_attitude() {
 }
 
 struct ExactAttitude : ::testing::TestWithParam<std::string> {
-  /// A top at rest, but for its spin (axes of the body), whose frame is not at its centre of mass.
+  /// Adds a top at rest except for its spin (axes of the body). Its frame is not at its centre of mass.
   static const RobotView& add_top(Trial& t, const Vec3& spin, const Quat& start, const Vec3& com = Vec3::Zero()) {
     t.set_gravity(Vec3::Zero());
     const Inertia inertia = Inertia::from(12, com, moments.asDiagonal());
@@ -61,7 +61,7 @@ struct ExactAttitude : ::testing::TestWithParam<std::string> {
 };
 
 TEST_P(ExactAttitude, IsThatOfTheTopTo1e6OfARadianAfter10S) {
-  // about each axis, the unstable middle one too, and about none
+  // about each axis, also the unstable middle one, and about no axis of the body
   for (const Vec3& spin : {Vec3(5, 0.1, 0.2), Vec3(0.01, 5, 0.02), Vec3(0.1, 0.2, 5), Vec3(3, -4, 5)}) {
     Trial t(GetParam());
     const Quat start = from_rpy(0.3, -0.5, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where an engine is not as exact as the case asks for, and why.
+// Engines that are less exact than a case requires, and the reasons.
 #include "tests/conformance/motion/case.hpp"
 
 namespace muro::conformance {

@@ -12,7 +12,7 @@ Trial::Trial(const std::string& motion, double rate) : motion_(motion), rate_(ra
 
 void Trial::start(std::map<std::string, ParameterInput> parameters) {
   const Description& d = description_of(motion_);
-  std::map<std::string, ParameterInput> of_collision;  // where the motion does not find its contacts itself
+  std::map<std::string, ParameterInput> of_collision;  // used where the motion does not find its contacts itself
   if (const auto meshes = parameters.find("meshes"); meshes != parameters.end()) of_collision.insert(*meshes);
   for (auto p = parameters.begin(); p != parameters.end();) {
     const bool known =

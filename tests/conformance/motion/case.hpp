@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cases with known answers, run against every motion that says it can do what they need. The tests hold each motion to
-// its bounds; the benchmark prints the errors.
+// Cases with known answers for every motion that has the features that they need. The tests compare the error of each
+// motion with its bound; the benchmark prints the errors.
 #pragma once
 
 #include "muro/features.hpp"
@@ -16,10 +16,10 @@ class Trial : public test::Scene {
   /// Steps at `rate` (Hz).
   explicit Trial(const std::string& motion, double rate = 1000);
 
-  /// All robots so far, moved by the motion, and contact. `parameters` that the motion does not have are left out.
+  /// Lets the motion move all robots so far, with contacts. Leaves out `parameters` that the motion does not have.
   void start(std::map<std::string, ParameterInput> parameters = {});
   void set_gravity(const Vec3& gravity) { world().set(world_object, keys::gravity, gravity); }
-  /// A plane through the origin that rises along x by `angle` (rad).
+  /// Adds a plane through the origin that rises along x by `angle` (rad).
   void add_slope(double angle, double friction);
   double& joint(std::string_view name, const Key<double>& key) { return world().value(name, key); }
 
@@ -28,7 +28,7 @@ class Trial : public test::Scene {
   double rate_;
 };
 
-/// What a case found.
+/// Result of a case.
 struct Outcome {
   double error = 0;  ///< compared with the bound
   std::string seen;  ///< the measured value, for people
@@ -37,13 +37,13 @@ struct Outcome {
 struct Case {
   std::string_view name;  ///< a sentence
   std::string_view unit;  ///< of the error
-  Features needs = 0;     ///< it is for motions that have all of these
+  Features needs = 0;     ///< features that a motion must have, all of them
   double bound = 0;       ///< of the error
   Outcome (*run)(const std::string& motion) = nullptr;
-  std::string_view only_for{};  ///< the motion that it is for; empty: all that have the features
+  std::string_view only_for{};  ///< the only motion that it is for; empty: all that have the features
 };
 
-/// All cases, in the order of their table.
+/// Returns all cases, in the order of their table.
 std::vector<Case> all_cases();
 std::vector<Case> free_body_cases();
 std::vector<Case> slope_cases();
@@ -67,17 +67,17 @@ std::vector<Case> tunnelling_cases();
 std::vector<Case> patch_cases();
 std::vector<Case> passivity_cases();
 
-/// Why the case is not for the motion; empty where it is.
+/// Returns why the case does not apply to the motion; empty if it applies.
 std::string why_left_out(const std::string& motion, const Case& c);
 
-/// What this motion is allowed in this case: its own bound, where it has one with a reason (see bounds.cpp).
+/// Largest error of this motion in this case: that of the case, or its own with a reason (see bounds.cpp).
 struct Bound {
   double error = 0;
-  std::string_view why{};  ///< it is not that of the case
+  std::string_view why{};  ///< reason why it is not that of the case; empty if it is
 };
 Bound bound_of(const std::string& motion, const Case& c);
 
-/// Motions that the build offers, by id, but for those of robots with certain parts (test::names_parts).
+/// Returns the motions of the build by id, except those of robots with certain parts (test::names_parts).
 std::vector<std::string> motions();
 const Description& description_of(const std::string& motion);
 
@@ -88,7 +88,7 @@ using test::solid_cylinder;
 using test::with;
 
 std::string text(double x);
-/// |seen - expected| / |expected|, with what was seen.
+/// Returns |seen - expected| / |expected|, with the seen value.
 Outcome relative(double seen, double expected);
 
 }  // namespace muro::conformance

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every motion against every case that applies to it. Combinations that do not apply are not instantiated;
-// MotionCases.AreLeftOutForAReason has the table of them in its XML report.
+// Runs every case on every motion that it applies to. Combinations that do not apply are not instantiated; the XML
+// report of MotionCases.AreLeftOutForAReason has a table of them.
 #include <gtest/gtest.h>
 
 #include "tests/conformance/motion/case.hpp"
@@ -31,7 +31,7 @@ std::vector<Combination> combinations() {
   return all;
 }
 
-/// "motion_ode_a_block_slides_down_30_deg".
+/// Returns a name such as "motion_ode_a_block_slides_down_30_deg".
 std::string name_of_case(const ::testing::TestParamInfo<Combination>& test) {
   std::string name = std::get<0>(test.param) + "_" + std::string(all_cases()[std::get<1>(test.param)].name);
   std::string clean;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joints of which the scenario says nothing: what algorithms command moves, and the rest turns freely.
+// Joints that the scenario does not mention: those that algorithms command follow; the others turn freely.
 #include "tests/conformance/motion/case.hpp"
 #include "tests/support/wheeled_robot.hpp"
 
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double tyre = 0.05, wheelbase = 0.33, half_track = 0.118;
 
-/// A car of scale 1:10 with balls as wheels: rear wheels are driven, front wheels steered, each by a joint of its own.
+/// Returns a car of scale 1:10 with balls as wheels. Rear wheels are driven, front wheels steered by separate joints.
 RobotTree steered_car() {
   return test::tree_of([&](RobotBuilder& b) {
     const Shape ball = with(Shape::sphere(tyre), 0.8);
@@ -40,7 +40,7 @@ RobotTree steered_car() {
   });
 }
 
-/// Driven by an algorithm that knows nothing of the motion: 0.6 m/s, 0.3 rad/s.
+/// A car driven by an algorithm that knows nothing of the motion: 0.6 m/s, 0.3 rad/s.
 struct Driven : Trial {
   const RobotView* robot;
   explicit Driven(const std::string& motion) : Trial(motion) {
@@ -67,7 +67,7 @@ Outcome follows_drive(const std::string& motion) {
   return {std::max(ahead.error, around.error), ahead.seen + " m/s, " + around.seen + " rad/s"};
 }
 
-/// Front wheels, which nobody drives, turn as fast as their centres move.
+/// Compares the speed of the front wheels, which have no drive, with that of their centres.
 Outcome rolls_along(const std::string& motion) {
   Driven car(motion);
   const double left = car.joint("r/front_left_wheel", keys::joint_velocity),

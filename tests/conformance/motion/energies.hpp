@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The energy of a body that nothing drives, and of the springs of its contacts.
+// Energy of a body without a drive, and of the springs of its contacts.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace muro::conformance {
 
-/// J; above z = 0.
+/// Returns the energy of a body, J; potential energy is 0 at z = 0.
 inline double energy_of(const Inertia& inertia, const Pose& pose, const Twist& twist) {
   const Mat3 axes = pose.orientation.toRotationMatrix();
   const Vec3 centre = pose * inertia.com, velocity = twist.at(centre - pose.position);
@@ -20,8 +20,8 @@ inline double energy_of(const Inertia& inertia, const Pose& pose, const Twist& t
   return 0.5 * inertia.mass * velocity.squaredNorm() + 0.5 * twist.angular.dot(spin) + inertia.mass * g * centre.z();
 }
 
-/// J: what springs of contacts hold at motion.articulated: each has 50 Hz for all of the body, and no more than twice
-/// its weight.
+/// Returns the energy in the springs of contacts in motion.articulated, J. Each spring has 50 Hz for the mass of the
+/// whole body, and a force of at most twice its weight.
 inline double held_by_each(const Inertia& inertia, std::span<const Contact> contacts) {
   const double omega = 2 * M_PI * 50, stiffness = inertia.mass * omega * omega, cap = 2 * g / (omega * omega);
   double held = 0;
@@ -30,8 +30,8 @@ inline double held_by_each(const Inertia& inertia, std::span<const Contact> cont
   return held;
 }
 
-/// J: the same of contact.penalty, of a body whose contacts have one normal: together they have 50 Hz, for all of the
-/// body where steps are so long that they are solved together, else for what weighs on their middle.
+/// Returns the energy in the springs of contact.penalty, J, for contacts with one normal. Together they have 50 Hz: for
+/// the whole body if steps are so long that they are solved together, else for the effective mass at their middle.
 inline double held_by_all(const Inertia& inertia, const Pose& pose, std::span<const Contact> contacts, double rate) {
   if (contacts.empty()) return 0;
   const double full = 2 * M_PI * 50, omega = std::min(0.6 * rate, full);
@@ -49,7 +49,7 @@ inline double held_by_all(const Inertia& inertia, const Pose& pose, std::span<co
   return 0.5 * omega * omega / inverse_mass * squares;
 }
 
-/// J: of the contacts of a body at this motion; of engines nothing is known.
+/// Returns the energy in the contacts of a body in this motion, J; 0 for engines, where it is unknown.
 inline double held_by_springs(const std::string& motion, const Inertia& inertia, const Pose& pose,
                               std::span<const Contact> contacts, double rate) {
   if (motion == "motion.articulated") return held_by_each(inertia, contacts);
@@ -62,7 +62,7 @@ struct Energies {
   double held_by_springs = 0;  ///< J
 };
 
-/// What `sample()` says after each step, in the mean of 50 ms.
+/// Returns the mean over 50 ms of what `sample()` returns after each step.
 template <class Sample>
 Energies mean_of_window(Trial& t, double rate, const Sample& sample) {
   const int steps = int(0.05 * rate);
@@ -75,8 +75,8 @@ Energies mean_of_window(Trial& t, double rate, const Sample& sample) {
   return mean;
 }
 
-/// Of the energy at the start: what a body has at most more, at any later time, than it and springs had before, whose
-/// part counts up to `most_held` (J). `first`: of `means`.
+/// Returns the largest gain of energy as a fraction of that at the start: the energy of the body at any later time,
+/// less that of body and springs before. Springs count up to `most_held` (J). `first`: first of `means` that counts.
 inline double gain_of(std::span<const Energies> means, double most_held = std::numeric_limits<double>::infinity(),
                       std::size_t first = 0) {
   double gain = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bodies that touch nothing. The boxes are those of Peters and Hsu, Comparison of rigid body dynamic simulators for
-// robotic simulation in Gazebo (ROSCon 2014): 10 kg, 0.1 x 0.4 x 0.9 m.
+// Bodies that touch nothing. The boxes are from Peters and Hsu, Comparison of rigid body dynamic simulators for robotic
+// simulation in Gazebo (ROSCon 2014): 10 kg, 0.1 x 0.4 x 0.9 m.
 #include "tests/conformance/motion/case.hpp"
 
 namespace muro::conformance {
@@ -66,7 +66,7 @@ Outcome complex_position(const std::string& motion) {
   return {e, text(e)};
 }
 
-/// Against the elliptic functions of Euler's equations at 1 s.
+/// Compares the spin at 1 s with the elliptic functions of Euler's equations.
 Outcome complex_rates(const std::string& motion) {
   Trial t(motion);
   t.set_gravity(complex.gravity);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parts that two fingers hold by friction alone, and the cones of friction.
+// Parts that two fingers hold by friction alone, and friction cones.
 #include "tests/conformance/motion/case.hpp"
 #include "tests/conformance/motion/recorded_contacts.hpp"
 
@@ -12,7 +12,7 @@ constexpr double grip_friction = 0.5;                    ///< both fingers hold 
 constexpr double pad_size = 0.04, pad_thickness = 0.02;  ///< m
 constexpr double part_width = 0.06;                      ///< m: between the pads
 
-/// Two fingers on a base, which slide along y towards each other; with their joints at 0 they are `part_width` apart.
+/// Returns two fingers on a base that slide along y towards each other. With joints at 0 they are `part_width` apart.
 RobotTree gripper() {
   return test::tree_of([](RobotBuilder& b) {
     b.base("palm");
@@ -33,7 +33,7 @@ RobotTree gripper() {
 
 struct Grip : Trial {
   const RobotView* part = nullptr;
-  /// The middle of the part is `off` (m, along the pads) beside theirs.
+  /// Puts the middle of the part `off` (m, along the pads) away from that of the pads.
   Grip(const std::string& motion, double mass, double off) : Trial(motion) {
     add("gripper", gripper(), {{0, 0, 1}, Quat::Identity()});
     std::map<std::string, ParameterInput> parameters{{"base", std::string("fixed")}};
@@ -50,7 +50,7 @@ struct Grip : Trial {
   }
 };
 
-/// m: how deep a finger on a slide of 0.3 kg in all goes into a wall that it presses with `effort` (N).
+/// Returns the depth (m) of a finger in a wall that it presses with `effort` (N); finger and slide have 0.3 kg.
 double pressed(const std::string& motion, double effort, double rate) {
   Trial t(motion, rate);
   const Vec3 size(0.04, 0.04, 0.04);
@@ -84,7 +84,7 @@ Outcome press(const std::string& motion) {
   return worst;
 }
 
-/// How far the part moves and turns, of what it may, within 5 s after the fingers have closed.
+/// Motion and rotation of the part within 5 s after the fingers have closed, as a fraction of what is allowed.
 Outcome holds_part(const std::string& motion) {
   constexpr double may_move = 1e-4, may_turn = 0.01;
   double worst = 0;
@@ -114,8 +114,8 @@ Outcome drops_part(const std::string& motion) {
   return {fallen > 0.1 ? 0.0 : 1.0, text(fallen) + " m in 1 s"};
 }
 
-/// By how much recorded contacts leave the cone of friction, of what it bears; of normal forces that are less than
-/// `least` (N), of that.
+/// Returns the largest tangential force beyond the friction cone of a recorded contact, as a fraction of its limit. The
+/// limit is that of the normal force, or of `least` (N) if the normal force is smaller.
 double out_of_cone(Trial& trial, const std::function<void()>& run, double least) {
   double worst = 0;
   for (const RecordedContact& c : recorded_contacts(trial, run)) {
@@ -125,7 +125,7 @@ double out_of_cone(Trial& trial, const std::function<void()>& run, double least)
   return worst;
 }
 
-/// What slides and spins, what rolls while it slips, what tumbles, and what is held.
+/// Checks bodies that slide and spin, roll while they slip, or tumble, and a part that is held.
 Outcome stays_in_cones(const std::string& motion) {
   Trial moving(motion);
   moving.add_ground(grip_friction);

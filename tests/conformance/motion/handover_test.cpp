@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots that pass from one motion to another during a run: for every pair of motions.
+// Robots that change from one motion to another during a run, for every pair of motions.
 #include <gtest/gtest.h>
 
 #include "tests/conformance/motion/case.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using Pair = std::tuple<std::string, std::string>;
 
-/// Those that can move a vehicle with two wheels.
+/// Returns the motions that can move a vehicle with two wheels.
 std::vector<std::string> vehicle_motions() {
   std::vector<std::string> all{"motion.point", "motion.differential_drive"};
   for (const std::string& id : motions())
@@ -19,7 +19,7 @@ std::vector<std::string> vehicle_motions() {
   return all;
 }
 
-/// All pairs of two of them.
+/// Returns all pairs of two different motions.
 std::vector<Pair> pairs_of(const std::vector<std::string>& motions) {
   std::vector<Pair> all;
   for (const std::string& a : motions)
@@ -28,7 +28,7 @@ std::vector<Pair> pairs_of(const std::vector<std::string>& motions) {
   return all;
 }
 
-/// Those that can move a block, which has no wheels.
+/// Returns the motions that can move a block, which has no wheels.
 std::vector<std::string> block_motions() {
   std::vector<std::string> some = vehicle_motions();
   std::erase(some, "motion.differential_drive");
@@ -53,7 +53,7 @@ class EveryHandOverOfABlock : public EveryHandOver {};
 
 constexpr double radius = 0.05, speed = 0.5, dt = 0.001;
 
-/// A vehicle in space, moving on at a constant speed with wheels that turn as if it rolled.
+/// A vehicle in space that moves at a constant speed; its wheels turn as if it rolled.
 struct Flight : test::Scene {
   const RobotView* robot;
   double spin = speed / radius;  ///< of the wheels, rad/s
@@ -110,7 +110,7 @@ TEST_P(EveryHandOver, KeepsPositionVelocityAndJoints) {
     EXPECT_LT(f.pose(*f.robot).orientation.angularDistance(before.orientation), 1e-12);
     EXPECT_LT((f.twist(*f.robot).linear - Vec3(speed, 0, 0)).norm(), 1e-12);
     EXPECT_LT(f.twist(*f.robot).angular.norm(), 1e-12);
-    const bool point = first() == "motion.point" || second() == "motion.point";  // there, wheels stand still
+    const bool point = first() == "motion.point" || second() == "motion.point";  // motion.point does not turn wheels
     const bool turn = !point && (features_of(first()) & features_of(second()) & feature_joints) != 0;
     if (turn) {
       EXPECT_NEAR(f.of("r/left", keys::joint_velocity), turning, 1e-12 * std::max(1.0, f.spin));
@@ -135,7 +135,7 @@ TEST_P(EveryHandOver, GoesOnFromASnapshotToTheSameBits) {
 }
 
 TEST_P(EveryHandOverOfABlock, MakesItABodyOrAnObstacleForOthers) {
-  // A ball rolls against the robot: one that forces move gives way, one that commands move does not.
+  // A ball rolls against the robot: a robot moved by forces gives way, a robot moved by commands does not.
   test::Scene s;
   s.world().set(world_object, keys::gravity, Vec3(0, 0, 0));
   const RobotView& robot = s.add("r", block(1, {0.2, 0.2, 0.2}, 0), {{0.5, 0, 0}, Quat::Identity()});
@@ -158,7 +158,7 @@ TEST_P(EveryHandOverOfABlock, MakesItABodyOrAnObstacleForOthers) {
   EXPECT_NEAR(s.twist(ball_).linear.x() + (moved ? s.twist(robot).linear.x() : 0), moved ? 1 : 0, 1e-9);
 }
 
-/// A box on the ground that holds an arm of 0.5 kg out, 0.1 m from its joint; moved by forces, or by another motion.
+/// A box on the ground that holds out an arm of 0.5 kg, 0.1 m from its joint; moved by forces, or by another motion.
 struct Porter : test::Scene {
   const RobotView* robot;
   test::ScratchFolder folder;
@@ -216,7 +216,7 @@ TEST_P(EveryMotionByForces, LeavesNoContactAndNoEffortBehind) {
 }
 
 TEST_P(EveryMotionByForces, TellsItsContactsBesideALevelOfAnEngine) {
-  if ((features_of(GetParam()) & feature_link_dynamics) == 0) return;  // contact algorithms tell those of others
+  if ((features_of(GetParam()) & feature_link_dynamics) == 0) return;  // contact algorithms report those of others
   for (const std::string& engine : motions()) {
     if ((description_of(engine).capabilities & Capability::world) == 0) continue;
     Porter p(GetParam(), engine);
@@ -228,7 +228,7 @@ TEST_P(EveryMotionByForces, TellsItsContactsBesideALevelOfAnEngine) {
   }
 }
 
-/// The rover, with these motions as levels, on a plane.
+/// The rover on a plane, with these motions as levels.
 using LevelList = std::vector<std::pair<std::string, std::map<std::string, ParameterInput>>>;
 struct Parked : test::Scene {
   const RobotView* rover;
@@ -316,7 +316,7 @@ TEST(LevelsOfOneRobot, DoNotLetAnotherHaveTwoMotions) {
   }
 }
 
-/// Those by forces.
+/// Returns the motions by forces.
 std::vector<std::string> motions_by_forces() {
   std::vector<std::string> some = motions();
   std::erase_if(some, [](const std::string& id) { return (features_of(id) & feature_forces) == 0; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bodies on heightmaps: a plane as one, hills, rims, and what is fast and thin.
+// Bodies on heightmaps: a plane of cells, hills, rims, and fast and thin bodies.
 #include <cstring>
 #include <random>
 
@@ -14,7 +14,7 @@ namespace muro::conformance {
 
 namespace {
 
-/// Heights (m) on a grid, as scenery.
+/// Heights (m) on a grid, which can be put into a scene.
 class Hills {
  public:
   template <class Height>
@@ -44,7 +44,7 @@ class Hills {
   Heightmap map_;
 };
 
-/// A plane that rises along x by `angle` (rad); bodies lie over many of its cells.
+/// A plane of cells that rises along x by `angle` (rad); a body lies on many cells.
 struct SlopeOfCells : Trial {
   Quat tilt;
   const RobotView* body;
@@ -75,7 +75,7 @@ Outcome lies_on_terrain(const std::string& motion) {
   return {sunk, text(sunk) + " m"};
 }
 
-/// A wedge whose longest face is below.
+/// Checks a wedge that lies on its longest face.
 Outcome mesh_lies(const std::string& motion) {
   const test::ScratchFolder folder;
   mesh::Mesh wedge;
@@ -133,7 +133,7 @@ Outcome cylinder_rolls(const std::string& motion) {
   return relative(t.gain_of_speed(), 2.0 / 3 * g * std::sin(angle));
 }
 
-/// The first three impacts of a ball of restitution 0.7 from 1 m.
+/// Checks the first three impacts of a ball of restitution 0.7 that falls from 1 m.
 Outcome bounces(const std::string& motion) {
   SlopeOfCells t(motion, 0, 0.5, ball(1, 0.05, 0.5, 0.7), 1.05);
   constexpr double expected[] = {0.451524, 1.083657, 1.526150};
@@ -154,7 +154,7 @@ Outcome bounces(const std::string& motion) {
   return {worst, seen};
 }
 
-/// Four levels, one in each quarter of a map that is longer than wide, and stands turned and shifted.
+/// Checks four levels, one in each quarter of a map that is longer than wide, turned and shifted.
 Outcome is_where_it_stands(const std::string& motion) {
   const auto level = [](double x, double y) { return (x > 0 ? 0.3 : 0.0) + (y > 0 ? 0.8 : 0.1) - (x > 0 && y > 0); };
   const Hills hills(61, 31, 6, 3, level);
@@ -176,7 +176,7 @@ Outcome is_where_it_stands(const std::string& motion) {
   return {worst, text(worst) + " m"};
 }
 
-/// A ball that rolls at 2 m/s is over the rim after 0.25 s.
+/// Checks that a ball that rolls at 2 m/s falls over the rim, which it reaches after 0.25 s.
 Outcome ends_at_its_rim(const std::string& motion) {
   const Hills flat(21, 21, 2, 2, [](double, double) { return 0.3; });
   Trial t(motion);
@@ -190,7 +190,7 @@ Outcome ends_at_its_rim(const std::string& motion) {
   return {on_it + (z < -1.5 ? 0 : 1), text(on_it) + " m before, falls to " + text(z) + " m"};
 }
 
-/// Bodies of all kinds on rough ground: how far the middle of one was below it, and more energy than it fell with.
+/// Checks bodies of all kinds on rough ground: the depth of a centre below it, and speed beyond that of their fall.
 Outcome carries_all(const std::string& motion) {
   std::mt19937 random(11);
   std::uniform_real_distribution<float> rough(0, 0.12f);
@@ -222,12 +222,12 @@ Outcome carries_all(const std::string& motion) {
       fastest = std::max(fastest, t.twist(*b).linear.norm());
     }
   }
-  // none falls by more than 1.2 m
+  // no body falls by more than 1.2 m
   return {deepest + std::max(0.0, fastest - std::sqrt(2 * g * 1.2)),
           text(deepest) + " m below, " + text(fastest) + " m/s"};
 }
 
-/// A plate of 1 cm, flat and on edge, and a ball, at speeds at which they move farther in a step than they are thick.
+/// Checks a plate of 1 cm, flat and on edge, and a ball, so fast that they move farther in a step than they are thick.
 Outcome stops_what_is_fast(const std::string& motion) {
   const Hills rough(21, 21, 4, 4, [](double x, double y) { return 0.1 * std::sin(3 * x) * std::cos(2 * y); });
   const Hills flat(3, 3, 4, 4, [](double, double) { return 0.0; });
@@ -255,7 +255,7 @@ Outcome stops_what_is_fast(const std::string& motion) {
   return {double(passed), "ends " + seen + "m above"};
 }
 
-/// With balls as wheels.
+/// Checks a vehicle with balls as wheels.
 Outcome carries_a_vehicle(const std::string& motion) {
   const Hills flat(201, 41, 20, 4, [](double, double) { return 0.0; });
   constexpr double radius = 0.06;
@@ -276,8 +276,8 @@ Outcome carries_a_vehicle(const std::string& motion) {
   return relative((t.pose(r).position - before).x() / 2, 10 * radius);
 }
 
-/// A cylinder in a gutter of radius R swings as a pendulum of the length 3/2 (R - r): the mean of two periods, with the
-/// first term of their growth with the width.
+/// Checks a cylinder that swings in a gutter of radius R as a pendulum of length 3/2 (R - r): the mean of two periods,
+/// with the first term of their growth with the amplitude.
 Outcome swings_in_a_gutter(const std::string& motion) {
   constexpr double gutter = 1, rim = 0.1, width = 0.2;  // m, m, rad
   const Hills hills(401, 21, 1.2, 1, [](double x, double) { return gutter - std::sqrt(gutter * gutter - x * x); });

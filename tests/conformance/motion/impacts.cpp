@@ -9,7 +9,7 @@ namespace muro::conformance {
 
 namespace {
 
-/// The first three impacts of a ball dropped from 1 m with restitution 0.7: the largest error of their times.
+/// Returns the largest error of the times of the first three impacts of a ball of restitution 0.7 dropped from 1 m.
 Outcome bounces(const std::string& motion) {
   Trial t(motion);
   t.add_ground();
@@ -34,10 +34,10 @@ Outcome bounces(const std::string& motion) {
   return {worst, seen};
 }
 
-/// How fast a ball comes up that is dropped from `height` (m), by the speed of its impact.
+/// Speed after the impact of a ball dropped from `height` (m), as a fraction of the speed of its impact.
 struct Rebound {
-  double by_height = 0;  ///< from the highest that it comes after the impact
-  double by_speed = 0;   ///< from the fastest that it moves up
+  double by_height = 0;  ///< from the greatest height after the impact
+  double by_speed = 0;   ///< from the greatest speed upwards
 };
 Rebound rebound(const std::string& motion, double e, double mass = 1, double height = 1, double rate = 1000) {
   constexpr double radius = 0.05;
@@ -46,14 +46,14 @@ Rebound rebound(const std::string& motion, double e, double mass = 1, double hei
   const RobotView& r = t.add("ball", ball(mass, radius, 0.5, e), {{0, 0, height + radius}, Quat::Identity()});
   t.start();
   const double fall = std::sqrt(2 * height / g), step = 1 / rate;
-  const auto steps = int((fall * (1 + 0.9 * e) + 0.05) / step) + 5;  // it is up, or has come to rest
+  const auto steps = int((fall * (1 + 0.9 * e) + 0.05) / step) + 5;  // by then it is up, or at rest
   bool has_met = false;
   double highest = 0, fastest = 0;
   for (int i = 0; i < steps; ++i) {
     const double before = t.twist(r).linear.z();
     t.run_for(step);
     const double v = t.twist(r).linear.z();
-    has_met = has_met || v > 0.5 * before;  // it falls faster and faster until it meets the ground
+    has_met = has_met || v > 0.5 * before;  // its speed grows until it meets the ground
     if (!has_met) continue;
     fastest = std::max(fastest, v);
     if (fastest > 0) highest = std::max(highest, t.pose(r).position.z() - radius);
@@ -61,7 +61,7 @@ Rebound rebound(const std::string& motion, double e, double mass = 1, double hei
   return {has_met ? std::sqrt(highest / height) : 1e3, has_met ? fastest / std::sqrt(2 * g * height) : 1e3};
 }
 double rebound_of(const std::string& motion, double e, double mass = 1) { return rebound(motion, e, mass).by_height; }
-/// At several rates, and impacts early and late in a step: the largest error.
+/// Returns the largest error at several rates, for impacts early and late in a step.
 Outcome rebounds_alike(const std::string& motion, std::initializer_list<double> restitutions) {
   double worst = -1;
   std::string seen;
@@ -82,7 +82,7 @@ Outcome elastic(const std::string& motion) {
   const double seen = rebound_of(motion, 0.9);
   return {std::abs(seen - 0.9), text(seen) + " for 0.9"};
 }
-/// 216 balls without friction in a box: most are in an impact every few steps, many in several at once.
+/// Checks 216 balls without friction in a box: most have an impact every few steps, many have several at once.
 Outcome gas(const std::string& motion) {
   constexpr double half = 1.5, wall = 0.2, radius_of_ball = 0.2;
   Trial t(motion);
@@ -120,7 +120,7 @@ Outcome gas(const std::string& motion) {
   return relative(energy(), before);
 }
 
-/// From a gram to a thousand tons: the largest error.
+/// Returns the largest error for masses from a gram to a thousand tons.
 Outcome elastic_of_any_mass(const std::string& motion) {
   double worst = 0;
   std::string all;
@@ -136,7 +136,7 @@ Outcome gains_nothing(const std::string& motion) {
   return {std::max(seen - 1, 0.0), text(seen) + " for 1"};
 }
 
-/// Five boxes one on the other: how far the uppermost moves in 10 s.
+/// Returns how far the uppermost of five stacked boxes moves in 10 s.
 Outcome stands(const std::string& motion) {
   Trial t(motion);
   t.add_ground();
@@ -161,7 +161,7 @@ Outcome carries(const std::string& motion) {
   return {sunk, text(sunk) + " m"};
 }
 
-/// From a gram to ten thousand tons: the deepest.
+/// Returns the greatest depth for masses from a gram to ten thousand tons.
 Outcome carries_any_mass(const std::string& motion) {
   double worst = 0;
   std::string all;
@@ -178,7 +178,7 @@ Outcome carries_any_mass(const std::string& motion) {
   return {worst, all + " m"};
 }
 
-/// The wrench of the ground on a box whose frame is not at its centre of mass.
+/// Checks the wrench of the ground on a box whose frame is not at its centre of mass.
 Outcome weighs(const std::string& motion) {
   Trial t(motion);
   t.add_ground();
@@ -196,7 +196,7 @@ Outcome weighs(const std::string& motion) {
                      text(-0.03 * weight)};
 }
 
-/// A ball that comes down with 1 m/s to the side: Coulomb's impulse slides through, or stops its contact (Routh).
+/// Checks a ball that falls with 1 m/s to the side. By Coulomb's law its contact slides throughout, or stops (Routh).
 Outcome routh_ball(const std::string& motion) {
   const double r = 0.05, e = 0.7, u = 1, v = std::sqrt(2 * g);
   Outcome worst;
@@ -216,7 +216,7 @@ Outcome routh_ball(const std::string& motion) {
   return worst;
 }
 
-/// A rod that strikes with one end: frictionless, on its cone, and where friction stops the end.
+/// Checks a rod that strikes with one end: without friction, on its cone, and where friction stops the end.
 Outcome routh_rod(const std::string& motion) {
   const double length = 1, e = 0.5, angle = 0.6, inertia = 1.0 / 12;
   const double x = 0.5 * length * std::cos(angle), z = -0.5 * length * std::sin(angle);
@@ -234,7 +234,7 @@ Outcome routh_rod(const std::string& motion) {
       before = t.twist(rod).linear.z();
       t.run_for(0.001);
     } while (t.twist(rod).linear.z() < before && t.now() < 1'000'000'000);
-    // what an impulse (p, 1) at the end does to its velocity
+    // change of the end's velocity by an impulse (p, 1) there
     const double kxx = 1 + z * z / inertia, kxz = -x * z / inertia, kzz = 1 + x * x / inertia;
     const double p = -std::min(friction, kxz / kxx), impulse = (1 + e) * std::sqrt(2 * g) / (kzz + kxz * p);
     const double spin = impulse * (z * p - x) / inertia, turns = t.twist(rod).angular.y();

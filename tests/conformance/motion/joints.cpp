@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One joint on a base that is fixed to the world, unless said otherwise.
+// One joint on a base that is fixed to the world, unless a case says otherwise.
 #include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/motion/case.hpp"
 
@@ -7,10 +7,10 @@ namespace muro::conformance {
 
 namespace {
 
-constexpr double moment = 0.1;  ///< kg m^2, of the link about a joint that turns
+constexpr double moment = 0.1;  ///< kg m^2, of the link about a revolute joint
 constexpr double mass = 1;      ///< kg, of the link
 
-/// A link with its centre of mass on the joint, which turns about z or shifts along x.
+/// Returns a link with its centre of mass on the joint, which turns about z or slides along x.
 RobotTree one_joint(JointKind kind, const JointLimits& limits) {
   return test::tree_of([&](RobotBuilder& b) {
     b.base("base");
@@ -185,7 +185,7 @@ Outcome sliding_armature(const std::string& motion) {
   return relative(j.of(keys::joint_velocity), 2 / (mass + 4));
 }
 
-/// A drive that holds a speed has its own rotor to speed up as well.
+/// Checks that a drive that holds a speed accelerates its own rotor as well.
 Outcome driven_armature(const std::string& motion) {
   Joint j(motion, "velocity", {.effort = 0.05, .armature = 0.3});
   j.of(keys::joint_velocity_target) = 5;
@@ -200,8 +200,8 @@ Outcome damped_armature(const std::string& motion) {
   return relative(j.of(keys::joint_velocity), 3 * std::exp(-0.2 / (moment + 0.3)));
 }
 
-/// The base feels no rotor: with the moments B and I of base and link, q'' = e / (I + armature - I^2 / (B + I)), and
-/// the base turns back by I q'' / (B + I).
+/// Checks that the rotor exerts no torque on the base. With the moments B and I of base and link, q'' = e / (I +
+/// armature - I^2 / (B + I)), and the base turns back by I q'' / (B + I).
 Outcome reaction_with_armature(const std::string& motion) {
   Joint j(motion, "effort", {.armature = 0.3}, JointKind::revolute, "free");
   j.of(keys::joint_effort_target) = 0.2;
@@ -212,7 +212,7 @@ Outcome reaction_with_armature(const std::string& motion) {
   return {std::max(link.error, base.error), link.seen + "; " + base.seen};
 }
 
-/// The base of a free robot turns against its link: momentum stays 0.
+/// Checks that the base of a free robot turns against its link: momentum stays 0.
 Outcome reaction(const std::string& motion) {
   Joint j(motion, "velocity", {}, JointKind::revolute, "free");
   j.of(keys::joint_velocity_target) = 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Limbs that nothing drives: what is light and hangs on something heavy.
+// Limbs without drives: light bodies that hang on heavy ones.
 #include <cmath>
 
 #include "tests/conformance/motion/energies.hpp"
@@ -34,7 +34,7 @@ struct LimpRobot : Trial {
       sum += energy_of(inertia, world().value("r/" + name, keys::pose), world().value("r/" + name, keys::twist));
     return sum;
   }
-  /// m/s.
+  /// Returns the speed of the fastest link, m/s.
   double fastest() {
     double speed = 0;
     for (const auto& [name, inertia] : links) {
@@ -46,7 +46,7 @@ struct LimpRobot : Trial {
   }
 
  private:
-  /// Of the last body: a box that begins at its origin and goes along y, or is about it.
+  /// Gives the last body a box that extends from its origin along y, or is centred on it (`side` 0).
   void add_box(RobotBuilder& b, const std::string& name, double mass, const Vec3& size, int side) {
     Inertia inertia = solid_box(mass, size);
     Shape shape = with(Shape::box(size), friction);
@@ -82,12 +82,12 @@ struct LimpRobot : Trial {
 };
 
 struct Fall {
-  double gain = 0;     ///< the most energy that it has more than before, of that of its fall
-  double fastest = 0;  ///< of its parts, by the speed with which it comes down
+  double gain = 0;     ///< largest gain of energy, as a fraction of that of the fall
+  double fastest = 0;  ///< largest speed of a link, as a fraction of the speed of the fall
 };
 Fall fall_of(const std::string& motion, const Quat& attitude) {
   LimpRobot robot(motion, attitude);
-  robot.run_for(0.001);  // links are where they are
+  robot.run_for(0.001);  // by now links have their poses
   double mass = 0, least = robot.energy();
   for (const auto& [name, inertia] : robot.links) mass += inertia.mass;
   const double of_fall = mass * g * LimpRobot::fall, speed = std::sqrt(2 * g * LimpRobot::fall);
@@ -103,7 +103,7 @@ Fall fall_of(const std::string& motion, const Quat& attitude) {
   return seen;
 }
 
-/// On its back, on a hand, on its head, and turned over. Nothing gets much faster than what hits the ground.
+/// Checks falls on the back, a hand and the head, and turned over. No link gets much faster than what hits the ground.
 Outcome falls(const std::string& motion) {
   constexpr double whip = 4;
   Fall worst;

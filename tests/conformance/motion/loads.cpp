@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bodies that carry others: what rests on something sinks in by no more than what rests on the ground, whatever it
-// weighs.
+// Bodies that carry others: a body sinks no deeper into another body than into the ground, whatever it weighs.
 #include <cmath>
 
 #include "tests/conformance/motion/case.hpp"
@@ -10,9 +9,9 @@ namespace muro::conformance {
 
 namespace {
 
-constexpr double of_loads = 0.8;  // friction
+constexpr double of_loads = 0.8;  // friction of loads
 
-/// Boxes on each other, the lowest on the ground.
+/// Stacked boxes, the lowest on the ground.
 struct Stack : Trial {
   struct Layer {
     double mass;
@@ -33,7 +32,7 @@ struct Stack : Trial {
     }
     start();
   }
-  /// m: how deep the deepest box is in what is below it.
+  /// Returns the greatest depth of a box in the one below it, m.
   double sunk() {
     double deepest = 0, top = 0;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -45,7 +44,7 @@ struct Stack : Trial {
   }
 };
 
-/// m: the deepest of several stacks at two rates, after 2 s.
+/// Returns the greatest depth in several stacks at two rates after 2 s, m.
 Outcome deepest(const std::string& motion, const std::vector<std::vector<Stack::Layer>>& stacks) {
   Outcome worst;
   for (const double rate : {1000.0, 250.0})
@@ -78,7 +77,7 @@ Outcome ten_boxes(const std::string& motion) {
   return deepest(motion, {std::vector<Stack::Layer>(10, {1, {0.2, 0.2, 0.2}})});
 }
 
-/// m: how much lower than on the ground a rover stands on a plank of 0.5 kg that lies on two bricks.
+/// Returns how much lower than on the ground a rover is on a plank of 0.5 kg that lies on two bricks, m.
 Outcome rover_on_a_plank(const std::string& motion) {
   Outcome worst;
   for (const double rate : {1000.0, 250.0}) {
@@ -106,7 +105,7 @@ Outcome rover_on_a_plank(const std::string& motion) {
   return worst;
 }
 
-/// A trunk of 10 kg on four legs with light shanks, whose hips and knees servos hold bent.
+/// A trunk of 10 kg on four legs with light shanks. Servos hold hips and knees bent.
 struct Quadruped : Trial {
   static constexpr double thigh = 0.2, lean = 0.6, foot = 0.02;  // m, rad, m
   static constexpr const char* legs[] = {"front_left", "front_right", "rear_left", "rear_right"};
@@ -127,7 +126,7 @@ struct Quadruped : Trial {
     robot = &add("dog", tree, {{0, 0, 2 * thigh * std::cos(lean) + foot}, Quat::Identity()});
     start({{"joints", "position"}, {"effort_limits", true}});
   }
-  /// m: of the foot that is deepest in the ground.
+  /// Returns the depth of the foot that is deepest in the ground, m.
   double sunk() {
     double deepest = 0;
     for (const char* leg : legs) {
@@ -160,7 +159,7 @@ struct Quadruped : Trial {
   }
 };
 
-/// m: the deepest foot, in a second after it has come to rest.
+/// Returns the greatest depth of a foot during a second at rest, m.
 Outcome on_four_legs(const std::string& motion) {
   Outcome worst;
   for (const double rate : {1000.0, 250.0}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Arms without mass on a base that is fixed to the world: no force moves their joints, which follow their targets.
+// Arms without mass on a base that is fixed to the world: their joints follow their targets, and no force moves them.
 #include "tests/conformance/motion/case.hpp"
 
 namespace muro::conformance {
@@ -8,8 +8,8 @@ namespace {
 
 constexpr double turn_speed = 0.4, upper = 0.5;  ///< of the first joint, rad/s and rad
 
-/// A turning joint, one that mimics it from `offset` (rad) on, and a sliding one; the last link has a shape, 0.6 m from
-/// the base.
+/// Returns an arm with a turning joint, one that mimics it with an `offset` (rad), and a sliding one. The last link has
+/// a shape, 0.6 m from the base.
 RobotTree arm(double offset) {
   return test::tree_of([offset](RobotBuilder& b) {
     b.base("base");
@@ -37,7 +37,7 @@ struct Arm : Trial {
   std::string said;
 };
 
-/// How far the joints are from what they should be, at worst, for two seconds.
+/// Returns the largest error of the joints within two seconds.
 template <class Turn, class Slide>
 Outcome compared(Arm& a, Turn turn, Slide slide) {
   double worst = 0;
@@ -68,7 +68,7 @@ Outcome massless_joints_stop(const std::string& motion) {
 
 Outcome integrates(const std::string& motion) {
   Arm a(motion, "velocity");
-  a.joint("r/turn", keys::joint_velocity_target) = 10;  // cut at its limit, and stopped at that of position
+  a.joint("r/turn", keys::joint_velocity_target) = 10;  // cut at its velocity limit, and stopped at its position limit
   a.joint("r/slide", keys::joint_velocity_target) = 0.2;
   return compared(
       a, [](double t) { return std::min(upper, turn_speed * t); }, [](double t) { return 0.2 * t; });
@@ -93,8 +93,8 @@ Outcome tells_once(const std::string& motion) {
   return {a.said.ends_with(expected) && std::count(a.said.begin(), a.said.end(), '\n') == 1 ? 0.0 : 1.0, a.said};
 }
 
-/// An arm without mass shoves a box over the ground that the same motion moves, in one world where the motion has
-/// worlds.
+/// Checks an arm without mass that pushes a box over the ground. The same motion moves the box, in one world where the
+/// motion has worlds.
 Outcome massless_arm_pushes(const std::string& motion) {
   Trial t(motion);
   t.add_ground(0.3);
@@ -104,7 +104,7 @@ Outcome massless_arm_pushes(const std::string& motion) {
   t.use(motion, 1000, {{&box, box.base()}});
   t.use_contacts();
   t.build();
-  // the palm's front goes from 0.65 m to 1.65 m at 0.25 m/s; the box begins at 0.7 m
+  // the front of the palm moves from 0.65 m to 1.65 m at 0.25 m/s; the box is at 0.7 m
   t.joint("r/slide", keys::joint_position_target) = 1;
   t.run_for(3);
   const double gap = t.pose(box).position.x() - 0.1 - (0.65 + t.joint("r/slide", keys::joint_position));

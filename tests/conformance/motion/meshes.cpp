@@ -15,7 +15,7 @@ Shape mesh_shape(TextId file) {
   return s;
 }
 
-/// A mesh of a cube lies on a plane and on a box as a cube does.
+/// Checks that a mesh of a cube lies on a plane and on a box as a cube does.
 Outcome lies(const std::string& motion) {
   const test::ScratchFolder folder;
   const std::string file =
@@ -38,7 +38,7 @@ Outcome lies(const std::string& motion) {
   return {std::max(std::abs(a - 0.1), std::abs(b - 1.1)), text(a) + " m for 0.1, " + text(b) + " m for 1.1"};
 }
 
-/// A gutter along y, two sides of 45 deg that meet at z = 0, holds a ball of 0.1 m; its hull carries the ball.
+/// Returns the height of a ball of 0.1 m in a gutter along y, two sides of 45 deg that meet at z = 0, or on its hull.
 double rests_at(const std::string& motion, bool exact) {
   mesh::Mesh m;
   m.vertices = {{-1, -1, 1}, {-1, 1, 1}, {0, -1, 0}, {0, 1, 0}, {1, -1, 1}, {1, 1, 1}};
@@ -61,8 +61,8 @@ Outcome hull(const std::string& motion) {
   return {std::abs(z - 1.1), text(z) + " m for 1.1"};
 }
 
-/// A mesh of a box falls on a corner, with a number for its inertia that nobody has measured: it comes to rest on a
-/// face, and on the way no part of it goes up by more than it fell. The error is what it is too fast or lies too high.
+/// Checks a mesh of a box that falls on a corner, with an arbitrary number for its inertia. It must come to rest on a
+/// face, and must not get faster than by its fall. The error is the excess of speed, or the error of its height.
 Outcome placeholder(const std::string& motion) {
   const test::ScratchFolder folder;
   const std::string file =

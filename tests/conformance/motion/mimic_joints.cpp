@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Joints that follow others: q = multiplier times that of the leader.
+// Joints that follow others: q = multiplier times q of the leader.
 #include "tests/conformance/motion/case.hpp"
 
 namespace muro::conformance {
 
 namespace {
 
-/// Two joints about y on one base, each with a link whose centre of mass is where the test wants it.
+/// Two joints about y on one base, each with a link whose centre of mass the test chooses.
 struct MimicPair : Trial {
   MimicPair(const std::string& motion, double multiplier, const Inertia& first, const Inertia& second,
             const JointLimits& limits = {})
@@ -30,7 +30,7 @@ struct MimicPair : Trial {
   }
   double position(const std::string& name) { return joint("r/" + name, keys::joint_position); }
   double velocity(const std::string& name) { return joint("r/" + name, keys::joint_velocity); }
-  /// rad: how far the follower is from where it belongs.
+  /// Returns the distance of the follower from its position by the leader, rad.
   double lag(double multiplier) { return std::abs(position("follower") - multiplier * position("leader")); }
 };
 
@@ -48,7 +48,7 @@ Outcome follows_leader(const std::string& motion) {
   return {p.lag(-0.5), text(p.position("follower")) + " for " + text(-0.5 * p.position("leader"))};
 }
 
-/// The leader swings with the follower's inertia and weight: I q'^2 / 2 = m g l (1 - cos q) of both, with k q for q.
+/// Checks a leader that swings with its follower: I q'^2 / 2 = m g l (1 - cos q), sums of both, the follower with k q.
 Outcome swings(const std::string& motion) {
   constexpr double k = -2, from = 0.6, inertia = 0.01 + arm_length * arm_length;
   MimicPair p(motion, k, hanging, hanging);
@@ -65,7 +65,7 @@ Outcome swings(const std::string& motion) {
   return {std::max(speed.error, lag), speed.seen + " rad/s, " + text(lag) + " rad off"};
 }
 
-/// What the follower carries pulls at the leader's drive by the multiplier: k m g l cos(k q) = stiffness times sag.
+/// Checks the load of the follower on the leader's drive, by the multiplier: k m g l cos(k q) = stiffness times sag.
 Outcome sags(const std::string& motion) {
   constexpr double k = 0.5;
   MimicPair p(motion, k, balanced, level);
@@ -79,7 +79,7 @@ Outcome sags(const std::string& motion) {
   return {std::max(balance.error, p.lag(k)), balance.seen + " rad"};
 }
 
-/// Limits of its own do not hold it.
+/// Checks that limits of the follower itself do not hold it.
 Outcome passes_limits(const std::string& motion) {
   MimicPair p(motion, -1, balanced, balanced, {.lower = 0, .upper = 0.88});
   p.set_gravity(Vec3::Zero());

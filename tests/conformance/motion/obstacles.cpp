@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots that commands move, among robots that forces move.
+// Robots moved by commands among robots moved by forces.
 #include "tests/conformance/motion/case.hpp"
 #include "tests/conformance/motion/recorded_contacts.hpp"
 
@@ -13,7 +13,7 @@ struct ObstacleTrial : Trial {
   std::vector<Item> tested;
   explicit ObstacleTrial(const std::string& id) : Trial(id), motion(id) {}
 
-  /// To be called between the robots under test and the other one.
+  /// Ends the list of robots under test; robots that are added later move by motion.point.
   void test_those() { tested = all_robots(); }
   void begin() {
     std::vector<Item> others(all_robots());
@@ -41,7 +41,7 @@ Outcome pushes(const std::string& motion) {
           text(m.twist(box).linear.x()) + " m/s for 0.5, gap " + text(gap) + " m"};
 }
 
-/// A block on a plate that moves on at 1 m/s takes its speed on with mu g.
+/// Checks that a block on a plate that moves at 1 m/s is accelerated with mu g.
 Outcome drags(const std::string& motion, bool to_the_end) {
   ObstacleTrial m(motion);
   const RobotView& box = m.add("box", block(1, {0.2, 0.2, 0.1}, 0.4), {{0, 0, 0.1}, Quat::Identity()});
@@ -74,8 +74,8 @@ Outcome is_blocked(const std::string& motion) {
   return {past + (m.pose(wall).position - Vec3(0.5, 0, 0.5)).norm(), text(m.pose(r).position.x()) + " m of 0.35"};
 }
 
-/// How fast a part of 2 kg with a foot of 0.2 kg becomes, and how hard a contact, while two plates, tilted against each
-/// other, squeeze the foot from above and below by 2 mm each, move to and fro for 2 s, and let it go at 0.5 m/s.
+/// Returns the largest speed of a part of 2 kg and its hardest contact. Two tilted plates squeeze its foot of 0.2 kg
+/// from above and below by 2 mm each, move to and fro for 2 s, and release it at 0.5 m/s.
 Outcome squeezes(const std::string& motion) {
   constexpr double size = 0.04, thickness = 0.02, tilt = 0.05, squeeze = 0.002;
   ObstacleTrial m(motion);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots that different motions move, and that touch: for every pair of motions by forces.
+// Robots that touch each other and have different motions: for every pair of motions by forces.
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/rotations.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using Pair = std::tuple<std::string, std::string>;
 
-/// With the simplified motion, whose contacts are those of contact.penalty, or of the others alone.
+/// Returns pairs with motion.simplified, whose contacts are those of contact.penalty, or pairs of the others alone.
 std::vector<Pair> pairs(bool with_simplified) {
   std::vector<std::string> moved;
   for (const std::string& id : motions())
@@ -33,7 +33,7 @@ struct Ball {
   Vec3 position, velocity, spin = Vec3::Zero();
 };
 
-/// Two balls, each in a motion of its own; two of one motion are in one world of it, unless `apart`.
+/// Bodies, each with a motion of its own. Two with one motion are in one of its worlds, unless `world` differs.
 struct PairScene : test::Scene {
   struct Body {
     const RobotView* robot;
@@ -67,7 +67,7 @@ struct PairScene : test::Scene {
     for (const Body& b : bodies) sum += b.mass * twist(*b.robot).linear;
     return sum;
   }
-  /// About the origin; bodies are balls.
+  /// Returns the angular momentum about the origin; bodies are balls.
   Vec3 angular_momentum() {
     Vec3 sum = Vec3::Zero();
     for (const Body& b : bodies)
@@ -89,7 +89,7 @@ class EveryPair : public ::testing::TestWithParam<Pair> {
   std::string second() const { return std::get<1>(GetParam()); }
 };
 
-/// A collision of two balls in two worlds, and what it must keep.
+/// A collision of two balls in two worlds, and the quantities that it must keep.
 struct Collision {
   Vec3 before, angular_before;
   double energy_before;
@@ -119,8 +119,8 @@ TEST_P(EveryPair, KeepsItsMomentaAndReboundsInAHeadOnCollision) {
   for (const double e : {0.0, 0.5, 0.9}) {
     Collision c(first(), second(), {2, 0.1, {-0.3, 0, 0}, {1, 0, 0}}, {1, 0.1, {0.3, 0, 0}, {-0.5, 0, 0}}, 0, e);
     const double seen = (c.velocity(1).x() - c.velocity(0).x()) / 1.5;
-    // Two bodies of motions that take impacts at their instant exchange an impulse. Else contact.penalty has springs:
-    // 0.135 for 0; where twists lag behind poses, it loses the last half step of a contact.
+    // Two bodies whose motions take impacts at their instant exchange an impulse. Otherwise contact.penalty has
+    // springs, with 0.135 instead of 0; where twists lag behind poses, it loses the last half step of a contact.
     const auto takes_impacts = [](const std::string& motion) {
       return motion == "motion.simplified" || motion == "motion.articulated";
     };
@@ -142,7 +142,7 @@ TEST_P(EveryPair, KeepsItsMomentaWhereOneEngineTakesSubsteps) {
 }
 
 TEST_P(EveryPair, ComesToRestOneOnTheOther) {
-  // One stands on the other for 60 s. The lower one stands on the ground of its own motion.
+  // One body stands on the other for 60 s. The lower one stands on the ground of its own motion.
   PairScene m({0, 0, -9.81});
   m.add_ground();
   const Vec3 low(0.4, 0.4, 0.2), high(0.2, 0.2, 0.2);
@@ -160,7 +160,7 @@ TEST_P(EveryPair, ComesToRestOneOnTheOther) {
   EXPECT_LT(after.orientation.angularDistance(before.orientation), 0.02);
 }
 
-/// m: how deep a box of one motion sinks, in the end, into a board of another motion that lies on the ground.
+/// Returns how deep a box of one motion sinks into a board of another motion that lies on the ground, m.
 double sunk_into_a_board(const std::string& low, const std::string& high, double board, double load) {
   PairScene m({0, 0, -9.81});
   m.add_ground();
@@ -180,7 +180,7 @@ TEST_P(EveryPair, CarriesALoadOfTenTimesItsMass) {
 }
 
 TEST_P(EveryPair, CarriesALoadOfAThousandTimesItsMass) {
-  // What holds a body up in an engine is hidden there.
+  // The force that holds a body up in an engine is not visible outside.
   if (description_of(first()).capabilities & Capability::world) return;
   EXPECT_NEAR(sunk_into_a_board(first(), second(), 0.1, 100), 0, 2.05e-4);
 }

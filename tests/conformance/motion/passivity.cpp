@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What nothing drives gains no energy, whatever it rolls, spins or falls on.
+// Bodies without a drive gain no energy, whatever they roll, spin or fall on.
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -23,7 +23,7 @@ struct PassiveBody {
   Pose at;
   Twist twist;
   double seconds = 2;
-  std::string mesh{};  ///< path of the file, of a mesh
+  std::string mesh{};  ///< path of the mesh file, if it is a mesh
   double friction = 1;
 };
 
@@ -52,8 +52,8 @@ std::vector<Energies> energies(const std::string& motion, const PassiveBody& s, 
   return means;
 }
 
-/// The same of a body that begins on the ground: when it has settled there, springs of 50 Hz hold what they need to
-/// carry it.
+/// Returns the gain of a body that begins on the ground. When it has settled there, springs count up to the energy that
+/// springs of 50 Hz need to carry it.
 double gain_on_ground(std::span<const Energies> means, double mass) {
   constexpr std::size_t settled = 6;
   constexpr double omega = 2 * M_PI * 50;
@@ -62,7 +62,7 @@ double gain_on_ground(std::span<const Energies> means, double mass) {
 
 constexpr double step_rates[] = {250, 500, 1000, 4000};  // Hz
 
-/// `gain`: of what energies() says.
+/// `gain`: function of the result of energies().
 template <class Gain>
 Outcome worst_gain(const std::string& motion, const PassiveBody& scene, const Gain& gain) {
   Outcome worst;
@@ -90,7 +90,7 @@ Outcome spinning_coin(const std::string& motion) {
                              {{0, 0, 0.05}, from_rpy(0, M_PI / 2 - 0.05, 0)},
                              {Vec3::Zero(), {0, 0, 12}}});
 }
-/// A wheel that leans rolls in a circle.
+/// Checks a leaning wheel that rolls in a circle.
 Outcome leaning_wheel(const std::string& motion) {
   const double rim = 0.3, width = 0.02, lean = 0.3, speed = 2;
   return worst_gain(motion,
@@ -106,7 +106,7 @@ Outcome rolling_disk(const std::string& motion) {
                              {{1, 0, 0}, {0, 10, 0}}});
 }
 
-/// A thin disk that rolls round while its centre rests: its contact goes round by sqrt(4 g / (R sin tilt)). Here the
+/// A thin disk that rolls round while its centre rests. Its contact goes round at sqrt(4 g / (R sin tilt)). Here the
 /// disk is the lower face of a cylinder.
 struct EulersDisk {
   static constexpr double rim = 0.05, mass = 0.2;  // m, kg
@@ -127,7 +127,7 @@ struct EulersDisk {
 
 Outcome flat_disk(const std::string& motion) { return worst_gain(motion, EulersDisk{.tilt = 0.3}.body()); }
 
-/// The largest relative error of how it goes round, and of its energy.
+/// Returns the largest relative error of the speed at which it goes round, and of its energy.
 Outcome euler(const std::string& motion) {
   constexpr double rate = 2000, seconds = 1;
   const EulersDisk disk{.tilt = 0.5};
@@ -150,7 +150,7 @@ Outcome euler(const std::string& motion) {
           text(turns) + " rad/s for " + text(disk.turns) + ", " + text(seen) + " J for " + text(expected)};
 }
 
-/// A box that stands on an edge, nearly, and one that stands on a corner, until they lie on a face.
+/// Checks a box that nearly stands on an edge, and one on a corner, until they lie on a face.
 Outcome tipping_boxes(const std::string& motion) {
   const Vec3 size(0.1, 0.1, 0.3);
   const auto gain = [](std::span<const Energies> means) { return gain_of(means); };
@@ -204,7 +204,7 @@ Outcome of_mesh(const std::string& motion, const mesh::Mesh& mesh, PassiveBody s
   scene.mesh = folder.file("body.obj", mesh::testing::obj_text(mesh));
   return worst_gain(motion, scene);
 }
-/// It rolls round on its side.
+/// Checks a cone that rolls round on its side.
 Outcome rolling_cone(const std::string& motion) {
   const double rim = 0.05, height = 0.12, slope = std::atan(rim / height), rate = 6;
   const double across = 0.15 * 0.3 * (rim * rim + height * height / 4);
@@ -229,7 +229,7 @@ Outcome rolling_ellipsoid(const std::string& motion) {
                   .twist = {{0.3, 0, 0}, {0, 3, 5}}});
 }
 
-/// A chain of ten links that lies on a table, half of it over the edge.
+/// Checks a chain of ten links that lies on a table, half of it over the edge.
 Outcome chain_over_an_edge(const std::string& motion) {
   constexpr int count = 10;
   constexpr double length = 0.1, thick = 0.01, mass = 0.05, height = 1;  // m, m, kg, m
@@ -273,7 +273,7 @@ Outcome chain_over_an_edge(const std::string& motion) {
   return worst;
 }
 
-/// Boxes, cylinders and capsules that fall askew.
+/// Checks boxes, cylinders and capsules that fall at a slant.
 Outcome random_bodies(const std::string& motion) {
   Outcome worst;
   test::Randoms random(5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines and faces that touch: friction acts as the pressure over them does, and they tip over their edges.
+// Lines and faces in contact: friction acts as it does with distributed pressure, and bodies tip over their edges.
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/mesh/files_testing.hpp"
 #include "tests/conformance/motion/case.hpp"
@@ -16,7 +16,7 @@ constexpr double mu = 0.5;
 
 constexpr double track = 0.3, wheel_radius = 0.05;  // m
 
-/// Two driven wheels, and balls without friction before and behind.
+/// Returns a cart with two driven wheels, and balls without friction at front and rear.
 RobotTree cart(const std::function<Shape(RobotBuilder&)>& wheel) {
   return test::tree_of([&](RobotBuilder& b) {
     b.base("chassis");
@@ -41,7 +41,7 @@ RobotTree cart(const std::function<Shape(RobotBuilder&)>& wheel) {
   });
 }
 
-/// rad/s: how fast a cart turns whose wheels turn for `speed` (m/s) and `rate` (rad/s) about their middles.
+/// Returns the rate of a cart (rad/s) with wheels that turn for `speed` (m/s) and `rate` (rad/s) about their middles.
 double turns(const std::string& motion, const RobotTree& tree, double speed, double rate) {
   Trial t(motion);
   t.add_ground(0.8);
@@ -57,8 +57,8 @@ double turns(const std::string& motion, const RobotTree& tree, double speed, dou
   return std::remainder(heading() - before, 2 * M_PI);
 }
 
-/// A wheel rolls about a point s b / 2 outside its middle: there its traction, mu N s at the arm T / 2, does as much as
-/// friction across it, mu N (1 - s^2) b / 4.
+/// Returns the rate of a cart with wide wheels. A wheel rolls about a point s b / 2 outside its middle: there the
+/// torque of its traction, mu N s at the arm T / 2, equals that of friction across it, mu N (1 - s^2) b / 4.
 double rate_with_width(double rate, double width) {
   const double k = width / (2 * track), s = 2 * k / (1 + std::sqrt(1 + 4 * k * k));
   return rate * track / (track + s * width);
@@ -81,7 +81,7 @@ Outcome balls(const std::string& motion) {
   return turns_with_width(motion, 0, cart([](RobotBuilder&) { return Shape::sphere(wheel_radius); }));
 }
 
-/// A prism of many sides.
+/// Checks wheels that are prisms of many sides.
 Outcome mesh_wheels(const std::string& motion) {
   constexpr double width = 0.03;
   constexpr std::uint32_t sides = 120;
@@ -105,7 +105,7 @@ Outcome mesh_wheels(const std::string& motion) {
 
 // --- plates that spin
 
-/// A body of 1 kg lies on its face and spins. Its inertia is that of a flat one.
+/// A body of 1 kg that lies on its face and spins. Its inertia is that of a flat body.
 struct Plate : Trial {
   const RobotView* plate_;
   Plate(const std::string& motion, const Shape& shape, double inertia, double height, const Twist& twist)
@@ -121,7 +121,7 @@ struct Plate : Trial {
   double speed() { return twist(*plate_).linear.norm(); }
 };
 
-/// `arm`, m: the mean distance of the face from its middle: the torque is mu N times that.
+/// Checks the torque on a face, mu N times `arm` (m), the mean distance of the face from its middle.
 Outcome spins(const std::string& motion, const Shape& shape, double inertia, double arm) {
   Plate t(motion, shape, inertia, 0.05, {Vec3::Zero(), {0, 0, 20}});
   t.run_for(0.1);
@@ -129,7 +129,7 @@ Outcome spins(const std::string& motion, const Shape& shape, double inertia, dou
   t.run_for(duration);
   return relative((before - t.spin()) / duration, mu * g * arm / inertia);
 }
-/// Of a rectangle with the half lengths a and b.
+/// Returns the mean distance of a rectangle with the half lengths a and b from its middle.
 double mean_distance(double a, double b) {
   const double d = std::hypot(a, b);
   return (d + a * a / (2 * b) * std::log((b + d) / a) + b * b / (2 * a) * std::log((a + d) / b)) / 3;
@@ -145,9 +145,9 @@ Outcome disc(const std::string& motion) {
   return spins(motion, Shape::cylinder(0.2, 0.05), 0.5 * 0.2 * 0.2, 2.0 / 3 * 0.2);
 }
 
-/// Sliding at v and spinning at w, a disc that presses evenly ends both at one instant (Farkas, Bartels, Unger, Wolf,
-/// Frictional coupling between sliding and spinning motion, 2003). The end by quadrature; the error is the time between
-/// those at which each is down to a hundredth, or half of that from the true end, of which it is a part.
+/// Checks a disc of even pressure that slides at v and spins at w: both end at one instant (Farkas, Bartels, Unger,
+/// Wolf, Frictional coupling between sliding and spinning motion, 2003), found by quadrature. The error is a fraction
+/// of that time: the time between both ends (a hundredth of v and w), or half the error of the end of sliding.
 Outcome slides_and_spins(const std::string& motion) {
   constexpr double rim = 0.2, inertia = 0.5 * rim * rim, v0 = 1, w0 = 6;
   double v = v0, w = w0, expected = 0;
@@ -175,7 +175,7 @@ Outcome slides_and_spins(const std::string& motion) {
           "slides for " + text(slid) + " s and spins for " + text(spun) + " s of " + text(expected)};
 }
 
-/// Whatever carries the friction, a block tips where the slope is as steep as its diagonal.
+/// Checks that a block tips where the slope is as steep as its diagonal, whatever carries the friction.
 Outcome tips_over_its_edge(const std::string& motion) {
   constexpr double b = 0.2, h = 0.5;
   const auto falls = [&](double slope) {

@@ -6,7 +6,7 @@ namespace muro::conformance {
 
 namespace {
 
-/// Period of a bob of 1 kg on 1 m, in units of that of small swings, from crossings of the lowest point.
+/// Returns the period of a bob of 1 kg on 1 m in units of that of small swings, from crossings of the lowest point.
 double period(const std::string& motion, double amplitude, double armature = 0) {
   Trial t(motion);
   const Inertia bob{.mass = 1, .com = {0, 0, -1}, .ixx = 0.001, .iyy = 0.001, .izz = 0.001};
@@ -35,7 +35,7 @@ double period(const std::string& motion, double amplitude, double armature = 0) 
 }
 
 Outcome small(const std::string& motion) { return relative(period(motion, 10 * M_PI / 180), 1.00190718814); }
-/// 2 pi sqrt((I + armature) / (m g d)), as 10 deg lengthen it.
+/// Checks the period 2 pi sqrt((I + armature) / (m g d)), longer by the factor of swings of 10 deg.
 Outcome with_armature(const std::string& motion) {
   constexpr double armature = 0.6;
   return relative(period(motion, 10 * M_PI / 180, armature), 1.00190718814 * std::sqrt((1.001 + armature) / 1.001));
@@ -43,7 +43,7 @@ Outcome with_armature(const std::string& motion) {
 Outcome right_angle(const std::string& motion) { return relative(period(motion, 90 * M_PI / 180), 1.18034059902); }
 Outcome nearly_upright(const std::string& motion) { return relative(period(motion, 170 * M_PI / 180), 2.43936271967); }
 
-/// The limit of speed is that of a drive, and here is none.
+/// Checks that the speed limit, which is that of a drive, does not hold a joint without one.
 Outcome fast(const std::string& motion) {
   Trial t(motion);
   t.add("r", test::tree_of([&](RobotBuilder& b) {
@@ -64,8 +64,8 @@ Outcome fast(const std::string& motion) {
   return relative(fastest, std::sqrt(2 * g / 1.001));
 }
 
-/// A disc (1 kg, radius 0.1 m) on an axle of 0.1 m, held at its end, spins at 200 rad/s with the axle `tilt` (rad) from
-/// upright: how fast it goes round when it begins to do so at `expected` (rad/s).
+/// Checks the precession of a disc (1 kg, radius 0.1 m) on an axle of 0.1 m, held at its end, that spins at 200 rad/s
+/// with the axle `tilt` (rad) from upright. It begins with the speed `expected` (rad/s) and must keep it.
 Outcome precession(const std::string& motion, double tilt, double expected) {
   Trial t(motion, 4000);
   const double m = 1, r = 0.1, l = 0.1;
@@ -87,7 +87,7 @@ Outcome precession(const std::string& motion, double tilt, double expected) {
         {{0, 0, 1}, Quat::Identity()});
   t.world().set(t.world().object("r/nod"), keys::initial_joint_position, tilt - M_PI / 2);
   t.start({{"base", "fixed"}, {"joints", "passive"}});
-  t.joint("r/spin", keys::joint_velocity) = 200 - expected * std::cos(tilt);  // 200 with what the fork's turn adds
+  t.joint("r/spin", keys::joint_velocity) = 200 - expected * std::cos(tilt);  // 200 with the share of the fork's speed
   t.joint("r/turn", keys::joint_velocity) = expected;
   t.run_for(1);
   const double before = t.joint("r/turn", keys::joint_position);
@@ -96,7 +96,7 @@ Outcome precession(const std::string& motion, double tilt, double expected) {
 }
 
 Outcome level_top(const std::string& motion) { return precession(motion, M_PI / 2, 0.981); }
-/// The slow one of two steady precessions, with I3 0.005 and I1 0.0125 kg m^2 about the end of the axle.
+/// Checks the slow one of two steady precessions, with I3 0.005 and I1 0.0125 kg m^2 about the end of the axle.
 Outcome leaning_top(const std::string& motion) { return precession(motion, M_PI / 3, 0.9846357); }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots that are put somewhere else between steps, by every motion.
+// Robots that are placed elsewhere between steps, in every motion.
 #include <gtest/gtest.h>
 
 #include "tests/conformance/motion/case.hpp"

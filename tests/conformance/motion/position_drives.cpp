@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drives that follow positions, on bases that are fixed to the world: PD controllers, as the oscillator that they are.
+// Drives that follow positions, on bases that are fixed to the world: PD controllers, compared with oscillators.
 #include <array>
 
 #include "tests/conformance/motion/case.hpp"
@@ -12,7 +12,7 @@ namespace {
 constexpr double drive_step = 1e-3;
 using Names = std::vector<std::string>;
 
-/// One link that turns about y, with the inertia 0.26 kg m^2 about the joint; gravity acts on 1 kg at 0.5 m.
+/// One link that turns about y, with an inertia of 0.26 kg m^2 about the joint; gravity acts on 1 kg at 0.5 m.
 struct OneLink : Trial {
   static constexpr double moment = 0.26, weight = g * 0.5;
 
@@ -34,7 +34,7 @@ struct OneLink : Trial {
   double& of(const Key<double>& key) { return joint("r/joint", key); }
 };
 
-/// The default gains are those of link and rotor together: critically damped.
+/// Checks the default gains, which follow from link and rotor together: critically damped.
 Outcome step_response(const std::string& motion, double armature) {
   constexpr double frequency = 20;
   OneLink link(motion, {.armature = armature}, {{"natural_frequency", frequency}});
@@ -50,7 +50,7 @@ Outcome step_response(const std::string& motion, double armature) {
 Outcome drive_step_response(const std::string& motion) { return step_response(motion, 0); }
 Outcome drive_rotor_frequency(const std::string& motion) { return step_response(motion, 2 * OneLink::moment); }
 
-/// With gains of its own it is underdamped: its first overshoot is exp(-pi zeta / sqrt(1 - zeta^2)).
+/// Checks an underdamped drive with given gains: its first overshoot is exp(-pi zeta / sqrt(1 - zeta^2)).
 Outcome overshoot(const std::string& motion, double armature) {
   constexpr double stiffness = 100, zeta = 0.4;
   const double damping = 2 * zeta * std::sqrt(stiffness * (OneLink::moment + armature));
@@ -65,7 +65,7 @@ Outcome overshoot(const std::string& motion, double armature) {
   return relative(farthest, 0.5 * (1 + std::exp(-M_PI * zeta / std::sqrt(1 - zeta * zeta))));
 }
 Outcome drive_overshoot(const std::string& motion) { return overshoot(motion, 0); }
-/// With a rotor that is twice the inertia of the link: it counts as much as the link does.
+/// Checks that a rotor with twice the inertia of the link counts as much as the link does.
 Outcome drive_rotor(const std::string& motion) { return overshoot(motion, 2 * OneLink::moment); }
 
 Outcome drive_deflection(const std::string& motion) {
@@ -95,7 +95,7 @@ Outcome drive_stiff(const std::string& motion) {
   return {worst, seen};
 }
 
-/// Coulomb friction holds the link until the drive is stronger, and takes its part of the effort from then on.
+/// Checks that Coulomb friction holds the link until the drive is stronger, and then takes its part of the effort.
 Outcome drive_friction(const std::string& motion) {
   OneLink held(motion, {.friction = 2}, {{"stiffness", Names{"joint=100"}}});
   held.of(keys::joint_position_target) = 0.019;
@@ -146,8 +146,8 @@ Outcome sine(const std::string& motion) {
   return {worst, text(worst) + " rad off"};
 }
 
-/// A drive of wheels writes velocities, and nothing moves the targets of position: a joint stands where its stiffness
-/// and its damping pull alike, at damping / stiffness times the velocity.
+/// Checks drives of wheels that write velocities, while position targets do not change. A joint stands where stiffness
+/// and damping pull equally, at damping / stiffness times the velocity.
 Outcome commanded_velocity(const std::string& motion) {
   Trial t(motion);
   t.set_gravity(Vec3::Zero());
@@ -188,8 +188,8 @@ struct TwoLinks : Trial {
   }
   double& of(const char* name, const Key<double>& key) { return joint(std::string("r/") + name, key); }
 
-  /// Inverse dynamics at its present position and speed, without acceleration (Spong, Hutchinson and Vidyasagar, Robot
-  /// Modeling and Control, 7.4); angles count downwards.
+  /// Returns the efforts of inverse dynamics at the present position and speed, without acceleration (Spong, Hutchinson
+  /// and Vidyasagar, Robot Modeling and Control, 7.4); angles count downwards.
   std::array<double, 2> efforts() {
     const double q1 = of("shoulder", keys::joint_position), q2 = of("elbow", keys::joint_position);
     const double v1 = of("shoulder", keys::joint_velocity), v2 = of("elbow", keys::joint_velocity);
@@ -200,7 +200,7 @@ struct TwoLinks : Trial {
   }
 };
 
-/// A controller of 100 Hz moves an arm steadily: each effort is that of inverse dynamics, in every drive_step.
+/// Checks an arm moved steadily by a controller of 100 Hz: inverse dynamics gives its efforts in every drive_step.
 Outcome steady_arm(const std::string& motion) {
   TwoLinks arm(motion);
   double worst = 0, largest = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ten thousand random convex bodies fall on planes, meshes and heightmaps, at several rates: none gains energy.
+// Ten thousand random convex bodies fall on planes, meshes and heightmaps at several rates. None gains energy.
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/rotations.hpp"
@@ -16,7 +16,7 @@ enum class Ground { plane, mesh, heightmap };
 double hill(double x, double y) { return 0.15 * std::sin(0.7 * x) * std::cos(0.5 * y); }
 
 constexpr int side = 8;       ///< bodies along each side of the square
-constexpr double apart = 12;  ///< m: none meets another
+constexpr double apart = 12;  ///< m: bodies do not meet
 constexpr double half = 0.5 * side * apart;
 
 mesh::Mesh hills_as_mesh() {
@@ -36,7 +36,7 @@ mesh::Mesh hills_as_mesh() {
   return m;
 }
 
-/// Points on an ellipsoid: collision takes their hull.
+/// Returns points on an ellipsoid; collision uses their hull.
 mesh::Mesh cloud(const Vec3& radii, test::Randoms& random) {
   mesh::Mesh m;
   const int count = 6 + random.below(30);
@@ -54,7 +54,7 @@ class RandomBodies {
     trial_.start();
   }
 
-  /// The largest gain of any, and which it is.
+  /// Returns the largest gain of a body, and a description of it.
   std::pair<double, std::string> run() {
     constexpr int windows = 40;  // of 50 ms
     const int steps = int(0.05 * rate_);

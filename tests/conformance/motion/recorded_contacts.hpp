@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What recorder.contacts has written of a scene.
+// Contacts of a scene, as recorder.contacts has written them.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ struct RecordedContact {
   double depth = 0;    ///< m
 };
 
-/// All contacts of all steps at 1 kHz, in the order of time, while `run` builds the scene and runs it.
+/// Returns all contacts of all steps at 1 kHz, in the order of time, while `run` builds the scene and runs it.
 std::vector<RecordedContact> recorded_contacts(test::Scene& scene, const std::function<void()>& run);
 
 }  // namespace muro::conformance

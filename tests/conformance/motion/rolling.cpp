@@ -9,7 +9,7 @@ namespace {
 
 constexpr double slope = 20 * M_PI / 180;
 
-/// Acceleration down the slope of a round body.
+/// Returns the acceleration of a round body down the slope.
 double rolls(const std::string& motion, const RobotTree& tree, double radius, const Quat& turn) {
   Trial t(motion);
   t.add_slope(slope, 0.5);
@@ -37,7 +37,7 @@ Outcome cylinder(const std::string& motion) {
 
 constexpr double ball_radius = 0.1, lever = 0.004;  // m
 
-/// A ball of 1 kg on grass: the ground resists its rolling, or it its own spinning.
+/// A ball of 1 kg on grass: a resistance of the ground to rolling, or of the ball to spinning.
 struct Grass : Trial {
   const RobotView* ball_;
 
@@ -60,8 +60,8 @@ struct Grass : Trial {
   }
 };
 
-/// The normal force acts by the coefficient b of rolling lever before the contact: a ball that rolls is slowed by
-/// g b / (1.4 r), and stops after 0.7 r v^2 / (g b).
+/// Checks that the normal force acts before the contact by the coefficient b of rolling resistance: a ball that rolls
+/// is slowed by g b / (1.4 r), and stops after 0.7 r v^2 / (g b).
 Outcome rolls_out(const std::string& motion) {
   const double speed = 1;
   Grass t(motion, {.friction = 0.8, .rolling_resistance = lever}, {}, {{speed, 0, 0}, {0, speed / ball_radius, 0}});
@@ -71,7 +71,7 @@ Outcome rolls_out(const std::string& motion) {
   return relative(way, 0.7 * ball_radius * speed * speed / (g * lever));
 }
 
-/// tan of the angle below b / r
+/// Checks a ball at rest on a slope; tan of its angle is below b / r.
 Outcome rests_on_a_slope(const std::string& motion) {
   Grass t(motion, {.friction = 0.8, .rolling_resistance = lever}, {}, {}, std::atan(0.9 * lever / ball_radius));
   t.run_for(1);
@@ -81,7 +81,7 @@ Outcome rests_on_a_slope(const std::string& motion) {
   return {creep, text(creep) + " m/s"};
 }
 
-/// Of two coefficients the larger counts.
+/// Checks that the larger one of two coefficients counts.
 Outcome spins_out(const std::string& motion) {
   const double rate = 20, slowed = g * lever / (0.4 * ball_radius * ball_radius);
   Grass t(motion, {.spinning_resistance = 0.5 * lever}, {.spinning_resistance = lever}, {Vec3::Zero(), {0, 0, rate}});
@@ -93,7 +93,7 @@ Outcome spins_out(const std::string& motion) {
   return relative(halfway, 0.5 * rate);
 }
 
-/// A ball that slides at 5 m/s with mu = 0.2 rolls at 5/7 of it.
+/// Checks that a ball that slides at 5 m/s with mu = 0.2 ends rolling at 5/7 of that speed.
 Outcome sliding_ball(const std::string& motion) {
   Trial t(motion);
   t.add_ground(0.2);
@@ -103,7 +103,7 @@ Outcome sliding_ball(const std::string& motion) {
   return relative(t.twist(r).linear.x(), 3.5714286);
 }
 
-/// 25 balls on a box that is pushed (SimBenchmark, rolling): acceleration of the balls.
+/// Checks the acceleration of 25 balls on a box that is pushed (SimBenchmark, rolling).
 Outcome stack(const std::string& motion, double angle) {
   Trial t(motion);
   t.add_ground(0.4);

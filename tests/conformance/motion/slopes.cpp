@@ -10,7 +10,7 @@ namespace {
 
 const Vec3 block_size(0.2, 0.2, 0.1);
 
-/// A block lies on a slope, which falls along -x.
+/// A block on a slope that falls along -x.
 struct Slope : Trial {
   const RobotView* block_;
   double angle_;
@@ -35,7 +35,7 @@ Outcome slides(const std::string& motion) {
   return relative(s.speed() - before, 2.3562872);
 }
 
-/// A block with mu = 0.2 on a slope with 0.5.
+/// Checks a block with mu = 0.2 on a slope with 0.5, by each friction rule.
 Outcome slides_by_the_rule(const std::string& motion) {
   const std::pair<FrictionRule, double> rules[] = {{FrictionRule::min, 0.2},
                                                    {FrictionRule::mean, std::sqrt(0.2 * 0.5)},
@@ -62,7 +62,7 @@ Outcome sticks(const std::string& motion) {
   return {creep, text(creep) + " m/s"};
 }
 
-/// Pushed along the diagonal of its sides with a force that friction holds only if its limit is not a circle.
+/// Checks a block pushed along the diagonal of its sides. Friction could hold it only if its limit were not a circle.
 Outcome cone(const std::string& motion) {
   Trial t(motion);
   t.add_ground(0.5);
@@ -94,7 +94,7 @@ Outcome straight(const std::string& motion) {
   return {angle, text(std::atan2(way.y(), way.x())) + " for 0.4"};
 }
 
-/// At the instant in which it stops: v^2 / (2 mu g).
+/// Checks the way of a block until it stops: v^2 / (2 mu g).
 Outcome stops(const std::string& motion) {
   Trial t(motion);
   t.add_ground(0.4);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Chains of joints that nobody drives and that nothing touches, against the solution of their equations: that to which
-// the method of Runge and Kutta comes with 16 kHz, to all digits that are given.
+// Chains of joints without drives and contacts, compared with the solution of their equations: all digits that are
+// given are those of the method of Runge and Kutta at 16 kHz.
 #include <functional>
 
 #include "tests/conformance/motion/case.hpp"
@@ -9,13 +9,13 @@ namespace muro::conformance {
 
 namespace {
 
-/// A slender body that hangs from its joint.
+/// Returns the inertia of a slender body that hangs from its joint.
 Inertia rod(double mass, double length) {
   const double across = mass * length * length / 12;
   return {.mass = mass, .com = {0, 0, -length / 2}, .ixx = across, .iyy = across, .izz = 0.12 * across};
 }
 
-/// `count` bodies, each `length` (m) below the one before; `axes` of their joints come again.
+/// Returns `count` bodies, each `length` (m) below the one before. `axes` of their joints repeat.
 RobotTree chain(int count, double length, std::initializer_list<Vec3> axes, const std::function<double(int)>& mass) {
   return test::tree_of([&](RobotBuilder& b) {
     b.base("base");
@@ -36,7 +36,7 @@ RobotTree rope() {
   return chain(10, 0.2, {Vec3::UnitY(), Vec3::UnitX()}, [](int) { return 0.5; });
 }
 
-/// The largest error of a joint (rad) `seconds` after the start.
+/// Returns the largest error of a joint (rad) `seconds` after the start.
 Outcome swing(const std::string& motion, const RobotTree& tree, bool fixed, double width, double seconds,
               std::initializer_list<double> expected) {
   Trial t(motion);

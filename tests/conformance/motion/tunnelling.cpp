@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From which speed on a ball passes through what should stop it.
+// Speeds from which a ball passes through an obstacle that should stop it.
 #include "tests/conformance/motion/tunnelling.hpp"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace {
 constexpr double dt = 1e-3, radius = 0.05;  // s, m
 constexpr int phases = 8;
 
-/// Whether a ball that flies against a wall (a plane: with `thickness` 0) at `speed` goes on behind it. `phase`: part
-/// of a step that it is away from the wall at the beginning of a step.
+/// Whether a ball that flies against a wall (`thickness` 0: a plane) at `speed` continues behind it. `phase`: distance
+/// from the wall at the beginning of a step, as a fraction of a step.
 bool passes(const std::string& motion, double thickness, double speed, double phase) {
   Trial m(motion, 1 / dt);
   m.set_gravity(Vec3::Zero());

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double wheel_radius = 0.06;
 
-/// Its wheels are balls, so that every engine knows where they touch.
+/// Returns a rover whose wheels are balls, so that every engine knows where they touch.
 RobotTree rover(double friction, double com_height = 0) {
   return test::rover({.chassis = {0.35, 0.2, 0.1},
                       .com_height = com_height,
@@ -72,7 +72,7 @@ Outcome climbs(const std::string& motion) {
   return relative((v.pose(*v.robot).position - before).norm() / 2, 5 * wheel_radius);
 }
 
-/// Four drives of the torque e speed up the vehicle, its wheels and their rotors:
+/// Checks that four drives of torque e accelerate the vehicle, its wheels and their rotors:
 /// a = (4 e / r) / (m + 4 (I + armature) / r^2).
 Outcome speeds_up_rotors(const std::string& motion) {
   constexpr double torque = 0.05, armature = 0.01, kilograms = 5.2;
@@ -93,7 +93,7 @@ Outcome speeds_up_rotors(const std::string& motion) {
                   4 * torque / wheel_radius / (kilograms + 4 * (wheel + armature) / (wheel_radius * wheel_radius)));
 }
 
-/// Locked wheels: v^2 / (2 mu g).
+/// Checks the way with locked wheels: v^2 / (2 mu g).
 Outcome brakes(const std::string& motion) {
   Vehicle v(motion, 0.5);
   v.wheels(25, 25);
@@ -104,7 +104,7 @@ Outcome brakes(const std::string& motion) {
   return relative(v.pose(*v.robot).position.x() - start, speed * speed / (2 * 0.5 * g));
 }
 
-/// With the centre of mass at h over the ground and b before the rear axle, it stays below tan = b / h and falls above.
+/// Checks a centre of mass h above the ground and b before the rear axle: stays below tan = b / h and falls above.
 Outcome tips(const std::string& motion) {
   const double com = 0.5, mass_of_wheels = 1.2;
   const double h = (4 * (0.09 + com) + mass_of_wheels * 0.06) / 5.2, limit = std::atan(0.12 / h);
@@ -118,8 +118,8 @@ Outcome tips(const std::string& motion) {
           std::string(below ? "falls" : "stays") + " 1 deg below, " + (above ? "falls" : "stays") + " 1 deg above"};
 }
 
-/// On a slope, nose up, the axles a and b before and behind the centre of mass carry m g (b cos -+ h sin) / (a + b), on
-/// average: points of contact come and go.
+/// Checks the loads on a slope, nose up: the axles a and b before and behind the centre of mass carry m g (b cos -+ h
+/// sin) / (a + b). They are means, since contact points change.
 Outcome loads(const std::string& motion) {
   const double slope = 15 * M_PI / 180, com = 0.1;
   Vehicle v(motion, 0.9, slope, com);
@@ -145,7 +145,7 @@ Outcome loads(const std::string& motion) {
           text(front) + " N for " + text(wanted) + ", " + text(rear) + " N for " + text(others)};
 }
 
-/// r = 0.05 m, track 0.3 m, 8 and 10 rad/s for 10 s.
+/// Checks an arc: r = 0.05 m, track 0.3 m, 8 and 10 rad/s for 10 s.
 Outcome arc(const std::string& motion) {
   Trial t(motion);
   const RobotView& r = t.add("r", test::two_wheeler(0.05, 0.3));

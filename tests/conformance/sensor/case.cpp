@@ -13,7 +13,7 @@ namespace {
 
 const Description& description_of(const std::string& motion) { return *test::plugins().algorithm(motion).description; }
 
-/// A model of examples/models with more links (URDF).
+/// Returns a model of examples/models with more links (URDF).
 RobotTree vehicle_with(Simulation& simulation, const std::string& model, const std::string& more) {
   std::string text = test::text_of(MURO_TEST_SOURCE_DIR "/examples/models/" + model + ".urdf");
   text.insert(text.rfind("</robot>"), more);
@@ -75,7 +75,7 @@ RobotTree box_with_tray() {
 
 constexpr const char* plane_of_legged = "plane_of_legged";
 
-/// Those for which a robot drives.
+/// Cases in which a robot drives.
 constexpr std::string_view driving_cases[] = {
     "driving forward while turning left it is pushed to the left",
     "speeding up is felt as it is",

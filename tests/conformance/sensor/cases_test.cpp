@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every sensor of a robot's own state at every motion that can give it what it measures.
+// Every sensor of a robot's own state in every motion that supports it.
 #include <gtest/gtest.h>
 
 #include "tests/conformance/sensor/case.hpp"

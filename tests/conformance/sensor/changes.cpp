@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What happens between steps leaves no trace: resets, snapshots, hand-overs, robots that are put elsewhere.
+// Events between steps leave no trace in readings: resets, snapshots, hand-overs, robots that are placed elsewhere.
 #include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/sensor/case.hpp"
 
@@ -7,7 +7,7 @@ namespace muro::sensor_conformance {
 
 namespace {
 
-/// The largest difference of two runs of 20 readings.
+/// Accelerations and angular velocities of 20 readings, compared with those of another run.
 struct Readings {
   std::vector<Vec3> all;
   void take(Trial& t, ObjectId sensor) {
@@ -57,8 +57,8 @@ Outcome snapshot(const std::string& motion) {
   return second.against(first);
 }
 
-/// A robot that is put elsewhere and made to move at another speed goes on as one that has always done so: what it
-/// feels is what it would have felt.
+/// Checks a robot that is placed elsewhere with another speed. Its readings must be those of a robot that has always
+/// moved so.
 Outcome put_elsewhere(const std::string& motion) {
   Trial t(motion);
   t.world().set(world_object, keys::gravity, Vec3(0, 0, 0));
@@ -77,7 +77,7 @@ Outcome put_elsewhere(const std::string& motion) {
   return difference(t.linear_acceleration(f), Vec3::Zero());
 }
 
-/// From the motion to another one and back, at a constant speed without weight: nothing is felt.
+/// Checks a hand-over to another motion and back at a constant speed without weight: readings are 0.
 Outcome handed_over(const std::string& motion) {
   const std::string other = motion == "motion.simplified" ? "motion.point" : "motion.simplified";
   test::Scene t;
@@ -102,7 +102,7 @@ Outcome handed_over(const std::string& motion) {
   return difference(worst, 0);
 }
 
-/// A robot that falls on the ground with all sensors that its motion can give, at rates that divide its own.
+/// Returns the pose of a robot that falls on the ground with all sensors of its motion, at rates that divide its own.
 Pose after_a_second(const std::string& motion, bool senses) {
   Trial t(motion);
   t.add_ground();
@@ -119,7 +119,7 @@ Pose after_a_second(const std::string& motion, bool senses) {
     if (t.family() == Family::forces) t.add_sensor("sensor.force_torque", "disc", {}, 125);
   }
   t.start();
-  if (senses) t.verify_access();  // that they read and write what they have declared
+  if (senses) t.verify_access();  // checks that they read and write only what they have declared
   t.command(0.3, 0.2);
   t.run_for(1);
   return t.pose(t.robot());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an accelerometer reads before the first step, of robots and scenery however they are turned and if their shapes
-// are meshes: those that stand on something feel their weight, those in the air fall.
+// First readings of an accelerometer, before the first step, for turned robots and scenery, and for meshes. Robots that
+// stand on something read their weight; robots in the air are in free fall.
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/rotations.hpp"
@@ -11,7 +11,7 @@
 namespace muro::sensor_conformance {
 namespace {
 
-const Vec3 cube_low(-0.1, -0.1, 0.2), cube_high(0.1, 0.1, 0.4);  // of a cube that lies beside the origin of its file
+const Vec3 cube_low(-0.1, -0.1, 0.2), cube_high(0.1, 0.1, 0.4);  // of a cube beside the origin of its file
 
 struct MeshScene : test::Scene {
   test::ScratchFolder folder;
@@ -26,11 +26,11 @@ struct MeshScene : test::Scene {
     const Shape shape = mesh(file, scale);
     world().add_scenery("scenery", {at, Quat::Identity()}, std::span<const Shape>(&shape, 1));
   }
-  /// The first reading of a robot with this cube, whose file has its origin at `at`.
+  /// Returns the first reading of a robot with this cube, whose file has its origin at `at`.
   Vec3 first(const std::string& motion, const Pose& at, double scale = 1) {
     return first(motion, at, {.kind = ShapeKind::mesh, .size = Vec3::Constant(scale)});
   }
-  /// Of a robot with this shape.
+  /// Returns the first reading of a robot with this shape.
   Vec3 first(const std::string& motion, const Pose& at, Shape shape) {
     const RobotView& r = add("r", test::tree_of([&](RobotBuilder& b) {
                                if (shape.kind == ShapeKind::mesh) shape.mesh = b.intern(cube);
@@ -68,7 +68,7 @@ TEST_P(FirstReading, OfAMeshOnTheGroundIsItsWeight) {
   }
 }
 
-/// A cube that stands on an edge above a slope: a box around it would reach into the ground.
+/// Checks a cube that stands on an edge above a slope; a box around it would reach into the ground.
 TEST_P(FirstReading, OfAMeshNearASlopeIsThatOfItsHull) {
   const Quat tilt = from_rpy(0, 0.5, 0);
   for (const double gap : {0.0, 0.01}) {
@@ -79,7 +79,7 @@ TEST_P(FirstReading, OfAMeshNearASlopeIsThatOfItsHull) {
   }
 }
 
-/// Boxes around these would reach deeper than they do.
+/// Checks a turned cylinder and capsule; boxes around them would reach deeper than the shapes.
 TEST_P(FirstReading, OfATurnedRoundBodyIsThatOfItsShape) {
   constexpr double angle = 0.8, radius = 0.1, length = 0.2;
   const double of_rim = radius * std::sin(angle) + 0.5 * length * std::cos(angle),

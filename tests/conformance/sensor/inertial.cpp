@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Gyroscopes and accelerometers. The turning and driving cases are those in which Isaac Sim and Isaac Lab were found
-// wrong (IsaacSim 735, IsaacLab 7163).
+// Gyroscopes and accelerometers. Isaac Sim and Isaac Lab had faults in the turning and driving cases (IsaacSim 735,
+// IsaacLab 7163).
 #include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/sensor/case.hpp"
 
@@ -12,8 +12,8 @@ constexpr double radius = 0.2;  ///< m, of the sensor on the turntable
 const Trial::Parameters at_radius{{"offset", std::vector<double>{radius, 0, 0}}};
 const Trial::Parameters on_table{{"base", "fixed"}, {"joints", "velocity"}, {"max_joint_acceleration", 1e9}};
 
-/// Nose up by 0.3 rad: held there by nothing but the motion, or on a slope, where contacts that are springs give by
-/// some 0.1 mrad.
+/// Nose up by 0.3 rad: held by the motion alone, or on a slope, where contacts that are springs give way by some 0.1
+/// mrad.
 Outcome tilted(const std::string& motion) {
   Trial t(motion);
   const double angle = 0.3;
@@ -37,7 +37,7 @@ Outcome falling(const std::string& motion) {
   return difference(t.linear_acceleration(f), Vec3::Zero());
 }
 
-/// About an axis of inertia, the device `r` off the centre: w x (w x r) is all there is.
+/// Spin about an axis of inertia, with the device `r` off the centre: the reading is w x (w x r) alone.
 Outcome falling_and_spinning(const std::string& motion) {
   Trial t(motion);
   const Vec3 w(0, 0, 3), r(0.1, 0.05, 0.02);
@@ -81,7 +81,7 @@ Outcome turntable(const std::string& motion) {
   return {std::max(f.error, w.error), f.seen + ", " + w.seen};
 }
 
-/// At 2 rad/s^2, read when it turns at 1 rad/s. The target of each step is the speed at its end.
+/// Acceleration of 2 rad/s^2, read at a speed of 1 rad/s. The target of each step is the speed at its end.
 Outcome turntable_that_speeds_up(const std::string& motion) {
   Trial t(motion);
   t.add_vehicle();
@@ -96,8 +96,8 @@ Outcome turntable_that_speeds_up(const std::string& motion) {
   return difference(t.linear_acceleration(imu), {-w * w * radius, 2 * radius, g});
 }
 
-/// At 2 m/s forward and 1 rad/s to the left (mecanum wheels are slower: 0.4 m/s); by forces a box is pushed so without
-/// weight.
+/// A circle at 2 m/s forward and 1 rad/s to the left (mecanum wheels are slower: 0.4 m/s). Motions by forces push a box
+/// in this way, without weight.
 Outcome driving_a_circle(const std::string& motion) {
   Trial t(motion);
   const bool pushed = t.family() == Family::forces;
@@ -120,7 +120,7 @@ Outcome driving_a_circle(const std::string& motion) {
   return difference(t.linear_acceleration(imu), {0, speed, pushed ? 0 : g});
 }
 
-/// A device on its head, 90 deg aside, on a base that turns on the spot, or on the table.
+/// A device upside down and turned by 90 deg, on a base that turns on the spot, or on the table.
 Outcome turned_gyro(const std::string& motion) {
   Trial t(motion);
   t.add_vehicle();
@@ -141,7 +141,7 @@ Outcome orientation(const std::string& motion) {
   return difference(angle_of(expected.conjugate() * t.world().value(imu, keys::orientation)), 0);
 }
 
-/// 3 m/s^2 forward; how far a device that samples `rate` times a second is from that.
+/// Returns the error of a device that samples `rate` times a second at 3 m/s^2 forward.
 Outcome speeding_up(const std::string& motion, double rate) {
   Trial t(motion);
   const bool pushed = t.family() == Family::forces;

@@ -9,7 +9,7 @@ namespace {
 
 const Trial::Parameters on_table{{"base", "fixed"}, {"joints", "velocity"}, {"max_joint_acceleration", 1e9}};
 
-/// A ramp of 0.3 rad/s through 391 steps of 12 bits: the error is uniform over a step.
+/// A ramp of 0.3 rad/s through 391 steps of 12 bits: the error is uniform over one step.
 Outcome quantised(const std::string& motion) {
   Trial t(motion);
   t.add_vehicle();
@@ -20,7 +20,7 @@ Outcome quantised(const std::string& motion) {
   double sum = 0;
   const int readings = 2000;
   for (int k = 0; k < readings; ++k) {
-    t.run_for(0.0005);  // the joint is where it was read
+    t.run_for(0.0005);  // the joint is where the sensor has read it
     const double truth = t.joint("table", keys::joint_position);
     t.run_for(0.0005);
     const double error = t.world().value(s, keys::encoder_position) - truth;
@@ -31,7 +31,7 @@ Outcome quantised(const std::string& motion) {
   return difference(std::sqrt(sum / readings) / (2 * M_PI / 4096 / std::sqrt(12.0)), 1);
 }
 
-/// At 1 rad/s, in 1 ms less than a step of 1.534 mrad: most readings are 0, others 1.534 rad/s, the mean is right.
+/// Speed of 1 rad/s; a joint moves less than a step of 1.534 mrad in 1 ms. Most readings are 0, others 1.534 rad/s.
 Outcome counted_velocity(const std::string& motion) {
   Trial t(motion);
   t.add_vehicle();
@@ -49,7 +49,7 @@ Outcome counted_velocity(const std::string& motion) {
   return difference(sum / 1000, 1);
 }
 
-/// 10 m straight; the left wheels are estimated 1 % too large on a track of 0.3 m.
+/// A straight line of 10 m. Odometry takes the left wheels to be 1 % too large on a track of 0.3 m.
 Outcome wrong_radius(const std::string& motion) {
   Trial t(motion);
   t.add_vehicle();
@@ -63,7 +63,7 @@ Outcome wrong_radius(const std::string& motion) {
                     {9.86492, -1.65955, -1.0 / 3});
 }
 
-/// On the spot by half a turn; the track is estimated 2 % too large.
+/// Half a turn on the spot. Odometry takes the track to be 2 % too large.
 Outcome wrong_track(const std::string& motion) {
   Trial t(motion);
   t.add_vehicle();
@@ -75,7 +75,7 @@ Outcome wrong_track(const std::string& motion) {
   return difference(yaw_of(t.pose(t.robot()).orientation) - 0.5e-3 - seen, 2 * 0.02 / 1.02);
 }
 
-/// Along an arc, against the true pose of the same instant, in the frame in which it began.
+/// An arc, compared with the true pose at the same instant, in the frame of its start.
 Outcome arcs(const std::string& motion) {
   Trial t(motion);
   const Pose start{{1, 2, 0.1}, from_rpy(0, 0, 0.7)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Forces that change from step to step: what a force-torque sensor and an accelerometer read belong together.
+// Forces that change from step to step: the readings of force-torque sensor and accelerometer must fit together.
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/rotations.hpp"
@@ -13,7 +13,7 @@ struct Lander : test::Scene {
   static constexpr double trunk_mass = 3, foot_mass = 0.5;
   ObjectId wrench{}, acceleration{};
 
-  /// `bystander`: Hz, of a motion of another robot, for which contacts are looked for in between; 0: none.
+  /// `bystander`: rate (Hz) of a motion of another robot, for which contacts are searched in between; 0: none.
   Lander(const std::string& motion, const Pose& start, const Twist& twist, double restitution, double rate,
          double bystander = 0) {
     const Shape sole = test::with(Shape::box({0.3, 0.2, 0.04}), 0.8, restitution);
@@ -39,7 +39,7 @@ struct Lander : test::Scene {
     use_contacts();
     build();
   }
-  /// What carries the trunk: the reading is that of the foot on the trunk, and nothing else touches it.
+  /// Returns the force on the trunk, which only the foot touches, less the trunk's mass times its specific force.
   Vec3 missing() {
     const Vec3 force = world().value(wrench, keys::sensed_wrench).force;
     return force - trunk_mass * world().value(acceleration, keys::linear_acceleration);
@@ -47,7 +47,7 @@ struct Lander : test::Scene {
   double force() { return world().value(wrench, keys::sensed_wrench).force.norm(); }
 };
 
-/// Flat with an impact, tilted with several, and so softly that springs do it.
+/// A flat landing with an impact, a tilted one with several, and one so soft that springs carry it.
 struct Landing {
   const char* name;
   Pose start;
@@ -76,7 +76,7 @@ TEST(ForceTorqueSensor, ReadsMassTimesSpecificForceInALanding) {
     }
 }
 
-/// Contacts of engines act along the step, whose accelerations are those of its two ends.
+/// Contacts of engines act during a whole step, and accelerations follow from its two ends.
 TEST(ForceTorqueSensor, ReadsMassTimesSpecificForceAtEngines) {
   const std::pair<const char*, double> engines[] = {
       {"motion.articulated", 1e-9}, {"motion.mujoco", 1e-6}, {"motion.bullet", 1e-6}, {"motion.ode", 1e-6}};
@@ -94,7 +94,7 @@ TEST(ForceTorqueSensor, ReadsMassTimesSpecificForceAtEngines) {
   }
 }
 
-/// One robot of motion.simplified that lands on a robot of an engine, with the sensor in that.
+/// Checks a robot of motion.simplified that lands on a robot of another motion, which has the sensor.
 TEST(ForceTorqueSensor, FeelsWhatLandsInTheStepInWhichItActs) {
   for (const char* motion :
        {"motion.simplified", "motion.articulated", "motion.mujoco", "motion.bullet", "motion.ode"}) {

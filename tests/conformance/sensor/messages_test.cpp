@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What users are told of sensors that cannot be where they put them.
+// Messages about sensors at places where they cannot be.
 #include <gtest/gtest.h>
 
 #include "tests/conformance/sensor/case.hpp"
@@ -7,7 +7,7 @@
 namespace muro::sensor_conformance {
 namespace {
 
-/// The message of a set-up with one sensor on a vehicle of motion.point; empty where it is fine.
+/// Returns the message of a set-up with one sensor on a vehicle of motion.point, or "" if it is accepted.
 std::string message_of(const std::string& id, const std::string& on, Trial::Parameters parameters = {},
                        const std::string& motion = "motion.point") {
   Trial t(motion);
@@ -66,7 +66,7 @@ TEST(SensorMessages, AJointThatNothingMovesStandsStill) {
   EXPECT_EQ(message_of("sensor.accelerometer", "disc", {}, "motion.point"), "");
 }
 
-/// Control code that moves a joint by itself tells no acceleration of it.
+/// Control code that moves a joint itself gives no acceleration of it.
 TEST(SensorMessages, AJointThatControlCodeMovesHasNoAcceleration) {
   Trial t("motion.point");
   t.add_vehicle();

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Two robots that touch: each feels the other, whoever moves them and whoever computes their contact.
+// Two robots that touch: each feels the other, whichever motions move them and whatever computes their contact.
 #include "tests/conformance/sensor/case.hpp"
 
 namespace muro::sensor_conformance {
 
 namespace {
 
-constexpr double mass = 2, body_mass = 1.5;  // of what is carried, and of it above its sole
-const Vec3 spot(0.05, 0.03, 0);              // of what is carried, on the tray
+constexpr double mass = 2, body_mass = 1.5;  // of the load, and of its part above the sole
+const Vec3 spot(0.05, 0.03, 0);              // of the load, on the tray
 
-/// On a sole of 0.04 m, with a fixed joint between.
+/// Returns a load that stands on a sole of 0.04 m, with a fixed joint between body and sole.
 RobotTree standing_load() {
   const Shape sole = test::with(Shape::box({0.1, 0.1, 0.04}), 0.8);
   return test::tree_of([&](RobotBuilder& b) {
@@ -32,7 +32,7 @@ std::vector<std::string> motions_by_forces() {
 struct Carrying : Trial {
   const RobotView *carrier, *load;
   Carrying(const std::string& motion, const std::string& motion_of_load) : Trial(motion) {
-    const double height = family() == Family::forces ? 0.1 : 0.3;  // others hang where they are
+    const double height = family() == Family::forces ? 0.1 : 0.3;  // other carriers hang in the air
     if (family() == Family::forces) add_ground();
     carrier = &add_carrier({{0, 0, height}, Quat::Identity()});
     load = &add_load(motion_of_load, standing_load(), {spot + Vec3(0, 0, height + 0.57), Quat::Identity()});
@@ -49,7 +49,7 @@ struct Carrying : Trial {
   }
 };
 
-/// Against each motion that the load may have.
+/// Returns the worst result of all motions that the load may have.
 Outcome worst_of_loads(const std::string& motion, Outcome (*run)(const std::string&, const std::string&)) {
   Outcome worst{0, "all alike"};
   for (const std::string& other : motions_by_forces())
@@ -69,7 +69,7 @@ Outcome tray_bears(const std::string& motion, const std::string& motion_of_load)
 }
 Outcome tray_bears_all(const std::string& motion) { return worst_of_loads(motion, tray_bears); }
 
-/// One threshold below the weight, one above it.
+/// Checks a bumper with a threshold below the weight, and one with a threshold above it.
 Outcome tray_is_pressed(const std::string& motion, const std::string& motion_of_load) {
   Carrying t(motion, motion_of_load);
   const auto bumper = [&](double threshold) {
@@ -82,7 +82,7 @@ Outcome tray_is_pressed(const std::string& motion, const std::string& motion_of_
 }
 Outcome tray_is_pressed_by_all(const std::string& motion) { return worst_of_loads(motion, tray_is_pressed); }
 
-/// The same from the other side: its sole bears its weight, and its body stands on the sole.
+/// Checks the sensors of the load: its sole carries its weight, and its body stands on the sole.
 Outcome load_stands(const std::string& motion, const std::string& motion_of_load) {
   Carrying t(motion, motion_of_load);
   const ObjectId foot = t.sensor(*t.load, "sensor.foot", "sole"),
@@ -96,7 +96,7 @@ Outcome load_stands(const std::string& motion, const std::string& motion_of_load
 }
 Outcome all_loads_stand(const std::string& motion) { return worst_of_loads(motion, load_stands); }
 
-/// On its base, turned so that z is upwards to the ground: the weight of both.
+/// Checks a foot sensor on the carrier's base, turned so that z points up to the ground: the weight of both.
 Outcome carrier_stands(const std::string& motion, const std::string& motion_of_load) {
   Carrying t(motion, motion_of_load);
   const ObjectId foot = t.sensor(*t.carrier, "sensor.foot", "base_link");
@@ -105,7 +105,7 @@ Outcome carrier_stands(const std::string& motion, const std::string& motion_of_l
 }
 Outcome carriers_stand(const std::string& motion) { return worst_of_loads(motion, carrier_stands); }
 
-/// A box that slides along, without friction, into a carrier that nothing has touched before.
+/// Checks a box that slides without friction into a carrier that nothing has touched before.
 Outcome is_run_into(const std::string& motion, const std::string& motion_of_load) {
   Trial t(motion);
   t.world().set(world_object, keys::gravity, Vec3(0, 0, 0));

@@ -8,7 +8,7 @@
 namespace muro::sensor_conformance {
 namespace {
 
-/// A box of 2 kg with a tray of 0.2 kg on top, and on it, at (0.05, 0.03), a box of 1 kg.
+/// Boxes of 2 kg, each with a tray of 0.2 kg on top that carries a box of 1 kg at (0.05, 0.03).
 struct Carriers : test::Scene {
   std::vector<Item> carriers, loads, trays, bumpers, load_bumpers;
 
@@ -34,7 +34,7 @@ struct Carriers : test::Scene {
     bumpers.push_back({&carrier, add_sensor_object(carrier, "bumper", on)});
     load_bumpers.push_back({&load, add_sensor_object(load, "bumper", load.base())});
   }
-  /// 1000 Hz.
+  /// Adds the sensors at 1000 Hz.
   void use_sensors() {
     use("sensor.force_torque", 1000, trays);
     use("sensor.bumper", 1000, bumpers, {{"threshold", 5.0}});
@@ -44,7 +44,7 @@ struct Carriers : test::Scene {
   Wrench tray_of(std::size_t number) { return world().value(trays[number].object, keys::sensed_wrench); }
 };
 
-/// Every other carrier is moved by no force.
+/// Carriers with loads; no force moves every other carrier.
 struct Crowd : Carriers {
   explicit Crowd(unsigned threads) {
     add_ground();
@@ -92,7 +92,7 @@ TEST(RobotsThatTouch, TouchOnlyWhatTheyHaveDeclared) {
   Crowd crowd(1);
   crowd.verify_access();
   EXPECT_NO_THROW(crowd.run_for(0.005));
-  Carriers s;  // whose sensors read the list of a robot of an engine
+  Carriers s;  // its sensors read the list of a robot of an engine
   s.add_ground();
   for (int i = 0; i < 20; ++i) s.add_pair(i, Vec3(i, 0, 0));
   s.use("motion.point", 1000, s.carriers);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the robot is: satellite navigation, the field of the earth, the truth. Read at the start, where it stands.
+// Place of the robot: satellite navigation, the field of the earth, the truth. Read at the start, before it moves.
 #include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/sensor/case.hpp"
 
@@ -7,7 +7,7 @@ namespace muro::sensor_conformance {
 
 namespace {
 
-/// The example of GeographicLib's CartConvert: 33.3 deg north, 44.4 deg east, 6000 m high, from 33, 44, 20.
+/// Example of GeographicLib's CartConvert: 33.3 deg north, 44.4 deg east, 6000 m high, from 33, 44, 20.
 Outcome on_the_earth(const std::string& motion) {
   Trial t(motion);
   t.add_vehicle({{37288.97, 33374.29, 5783.64 - 0.5}, Quat::Identity()});
@@ -16,7 +16,7 @@ Outcome on_the_earth(const std::string& motion) {
                    {{"reference", std::vector<double>{33, 44, 20}}, {"offset", std::vector<double>{0, 0, 0.5}}}, 5);
   t.start();
   t.run_for(0.0005);
-  const double metres = 111e3;  // of a degree, about
+  const double metres = 111e3;  // in a degree, about
   return difference(Vec3(metres * t.world().value(s, keys::latitude), metres * t.world().value(s, keys::longitude),
                          t.world().value(s, keys::altitude)),
                     {metres * 33.3, metres * 44.4, 6000});
@@ -46,7 +46,7 @@ Outcome field(const std::string& motion) {
   return difference(t.world().value(s, keys::magnetic_field), (body * device).conjugate() * Vec3(0, 2e-5, -4e-5));
 }
 
-/// A block 2 m in front of the robot and 1 m aside, in the frame of the device.
+/// Checks a block 2 m in front of the robot and 1 m to the side, in the frame of the device.
 Outcome seen_from_the_device(const std::string& motion) {
   Trial t(motion);
   const Pose start{{1, 2, 3}, from_rpy(0, 0, 0.5)};

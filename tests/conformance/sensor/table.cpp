@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prints docs/sensor-levels.md: every known answer of the suite, by motion.
+// Prints docs/sensor-levels.md: every case of the suite with its known answer, by motion.
 #include <cstdio>
 
 #include "tests/conformance/sensor/case.hpp"

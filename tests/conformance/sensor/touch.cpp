@@ -6,7 +6,7 @@ namespace muro::sensor_conformance {
 
 namespace {
 
-/// Of 3.5 kg, its centre of mass (0.02, 0.01) off the middle of its foot.
+/// A robot of 3.5 kg whose centre of mass is (0.02, 0.01) off the middle of its foot.
 struct Stander : Trial {
   ObjectId foot{};
   explicit Stander(const std::string& motion, Parameters parameters = {}) : Trial(motion) {
@@ -40,7 +40,7 @@ Outcome center_of_pressure(const std::string& motion) {
   return difference(t.world().value(t.foot, keys::foot_center_of_pressure), {0.02, 0.01, -0.02});
 }
 
-/// The weight is 34.3 N: at a threshold above it there is no contact, at one below it there is.
+/// Checks the contact at a weight of 34.3 N: not with a threshold above it, but with one below it.
 Outcome threshold(const std::string& motion) {
   Stander below(motion, {{"threshold", 30.0}}), above(motion, {{"threshold", 40.0}, {"release_threshold", 36.0}});
   return difference(double(below.world().value(below.foot, keys::foot_contact)) -
@@ -48,7 +48,7 @@ Outcome threshold(const std::string& motion) {
                     1);
 }
 
-/// Up against a wall: not pressed before, pressed then.
+/// Checks a bumper that drives against a wall: not pressed before, pressed then.
 Outcome bumper(const std::string& motion) {
   Trial t(motion);
   t.add_ground();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Force and torque in a joint: of what lies beyond it on what carries it, at the device, in its axes. Peers were wrong
-// in each of the three (sdformat 130, gazebo-yarp-plugins 73 and 480).
+// Force and torque in a joint: they act from what lies beyond it on what carries it, at the device, in its axes. Other
+// simulators had a fault in each of the three (sdformat 130, gazebo-yarp-plugins 73 and 480).
 #include "muro/toolkit/rotations.hpp"
 #include "tests/conformance/sensor/case.hpp"
 
@@ -29,7 +29,7 @@ Outcome held_arm(const std::string& motion) {
   return both(reading(t, s), weight * Vec3(std::sin(q), 0, -std::cos(q)), {0, weight * arm * std::cos(q), 0});
 }
 
-/// Shifted by r, the torque changes by -r x F; turned, both are told in other axes.
+/// A device shifted by r: the torque changes by -r x F. A turned device: both are given in its own axes.
 Outcome shifted_and_turned(const std::string& motion) {
   Trial t(motion);
   const double q = 0.4, weight = mass * g;
@@ -46,7 +46,7 @@ Outcome shifted_and_turned(const std::string& motion) {
   return both(reading(t, s), axes.conjugate() * force, axes.conjugate() * torque);
 }
 
-/// About the vertical at 4 rad/s: outward m w^2 l, and its weight.
+/// An arm that turns about the vertical at 4 rad/s: outward m w^2 l, and its weight.
 Outcome whirled_arm(const std::string& motion) {
   Trial t(motion);
   t.add_arm(Vec3::UnitZ(), 0);
@@ -57,7 +57,7 @@ Outcome whirled_arm(const std::string& motion) {
   return both(reading(t, s), {mass * 16 * arm, 0, -mass * g}, {0, mass * g * arm, 0});
 }
 
-/// Released level, with the sensor in the pivot: the force, by its weight, when it has swung by `angle` (rad).
+/// Returns the force at the pivot, as a fraction of the weight, after a swing of `angle` (rad) from level.
 Vec3 swinging(const std::string& motion, const Inertia& bob, double angle) {
   Trial t(motion);
   t.add("r", test::tree_of([&](RobotBuilder& b) {
@@ -82,12 +82,12 @@ Outcome point_pendulum(const std::string& motion) {
 Outcome rod_pendulum(const std::string& motion) {
   return difference(swinging(motion, uniform_rod, M_PI / 2).norm(), 2.5);
 }
-/// At 45 deg from the bottom, across the rod: m g sin q / 4.
+/// Checks the force across a rod at 45 deg from the bottom: m g sin q / 4.
 Outcome rod_across(const std::string& motion) {
   return difference(std::abs(swinging(motion, uniform_rod, M_PI / 4).z()), std::sqrt(0.5) / 4);
 }
 
-/// On a foot that a fixed joint holds: it carries the weight of what stands on it. Peers lump such joints away.
+/// Checks a sensor on a foot with a fixed joint: it carries the weight above. Other simulators merge such joints.
 Outcome standing(const std::string& motion) {
   Trial t(motion);
   t.add_ground();
