@@ -16,7 +16,7 @@ namespace muro::log_distance {
 using Settings = std::map<std::string, ParameterInput>;
 using radio::Counters, radio::Header;
 
-/// Robots that are balls of 0.1 m, each with a radio in its middle. All of the same settings, unless they are given.
+/// Robots as balls of 0.1 m, each with a radio in its middle. All have the same settings unless some are given.
 struct Radios : test::Scene {
   explicit Radios(std::uint64_t seed = 1) : Scene(seed) {}
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Puts what properties are at the end of a run into its report; see README.md.
+// Writes the values of properties at the end of a run to its report; see README.md.
 #include "muro/ext/report_numbers.hpp"
 #include "muro/plugin.hpp"
 #include "plugins/common/text/with_scalar.hpp"

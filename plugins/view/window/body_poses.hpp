@@ -9,13 +9,13 @@
 
 namespace muro::view {
 
-/// The poses of the links of all robots, and of the laser scanners and cameras on them.
+/// Poses of the links of all robots, and of the laser scanners and cameras on them.
 class BodyPoses {
  public:
   struct Body {
     In<Pose> pose;
     ObjectId object = no_object;
-    std::int32_t robot = -1;  ///< number
+    std::int32_t robot = -1;  ///< number of its robot
     bool is_base = false;
   };
 
@@ -26,7 +26,7 @@ class BodyPoses {
         add(c, link.object, std::int32_t(robot->number), link.object == robot->base());
     link_count_ = bodies_.size();
   }
-  /// After the links, when all sensors have connected. [setup]
+  /// Called after connect_links, when all sensors have connected. [setup]
   void connect_sensors(Connector& c) {
     for (std::uint32_t i = 0; i < c.object_count(); ++i)
       if (const std::int32_t robot = c.robot_of(ObjectId(i)); robot >= 0)
@@ -37,7 +37,7 @@ class BodyPoses {
 
   std::span<const Body> all() const { return bodies_; }
   std::span<const Body> links() const { return {bodies_.data(), link_count_}; }
-  /// Null for an object that is none of them.
+  /// Returns null for any other object.
   const Pose* find(ObjectId object) const {
     for (const Body& b : bodies_)
       if (b.object == object) return b.pose.get();
