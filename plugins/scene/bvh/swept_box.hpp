@@ -8,7 +8,7 @@
 
 namespace muro::bvh {
 
-/// The points within `ball` of a box in the axes of a link.
+/// Points within the distance `ball` of a box along the axes of a link.
 struct LinkBox {
   std::uint32_t link = 0;
   Vec3 centre = Vec3::Zero();  ///< m
@@ -16,9 +16,10 @@ struct LinkBox {
   double ball = 0;             ///< m
 };
 
-/// The box that a shape of link number `link` stays in while the joints move, in the first link on the way from the
-/// root that can have one which is hardly larger: a wheel's in its carrier, for it stays in its place however far it
-/// has rotated; an arm's in the arm. `follows[i]`: the pose of link i is exactly what its joint makes of its parent's.
+/// Returns the box in which a shape of link number `link` stays while the joints move. The box moves with the link
+/// nearest to the root for which it is hardly larger than the shape: with the carrier for a wheel, which stays in its
+/// place while it rotates, and with the arm for a part of an arm. `follows[i]`: parent and joint alone determine the
+/// pose of link i.
 LinkBox swept_box(std::span<const Link> links, const std::vector<bool>& follows, std::uint32_t link,
                   const Shape& shape);
 

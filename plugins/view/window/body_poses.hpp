@@ -37,7 +37,7 @@ class BodyPoses {
 
   std::span<const Body> all() const { return bodies_; }
   std::span<const Body> links() const { return {bodies_.data(), link_count_}; }
-  /// Returns null for any other object.
+  /// Returns the pose of an object, or null when it is not among them.
   const Pose* find(ObjectId object) const {
     for (const Body& b : bodies_)
       if (b.object == object) return b.pose.get();
