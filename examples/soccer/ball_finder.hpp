@@ -109,8 +109,7 @@ class BallFinder {
     return longest;
   }
 
-  /// Returns the middle of the pixels about a candidate that are not green, or the candidate if they do not cover the
-  /// area of a ball.
+  /// Returns the middle of the pixels about a candidate that are not green, or the candidate if their area is wrong.
   Pixel centre(const Image& image, const Candidate& c, const CameraView& view) const {
     const double reach = 1.2 * c.size;
     double weight = 0, u = 0, v = 0;

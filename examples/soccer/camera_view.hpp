@@ -62,8 +62,7 @@ class CameraView {
     is_upright_ = up.z > 0.94;  // within 20 degrees
   }
 
-  /// Returns the point at `height` (m) above the ground that is seen at a pixel, in the heading frame; nothing above
-  /// the horizon.
+  /// Point at `height` (m) above the ground that is seen at a pixel, in the heading frame; none above the horizon.
   std::optional<Vector> at_height(const Pixel& p, double height) const {
     const Vector ray = forward_ + ((lens_.cx - p.u) / lens_.fx) * left_ + ((lens_.cy - p.v) / lens_.fy) * up_;
     constexpr double flat = 0.01;  // least sine of the slope: farther away than a hundred times the height

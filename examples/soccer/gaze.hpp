@@ -16,8 +16,7 @@ struct Neck {
 
 class Gaze {
  public:
-  /// Returns the angles while the ball is in sight at a pixel, `distance` (m) away. `seconds`: s since the last
-  /// picture.
+  /// Returns the angles while the ball is seen at a pixel, `distance` (m) away. `seconds`: since the last picture.
   Neck follow(const Neck& neck, const Pixel& ball, const Lens& lens, double distance, double seconds) {
     constexpr double gain = 0.7;  // share of the way to the ball from picture to picture
     at_ball_ = {neck.pan + gain * muro_atan2(lens.cx - ball.u, lens.fx),
@@ -47,8 +46,7 @@ class Gaze {
   static constexpr double between_glances = 4;          ///< s
   static constexpr double glance_length = 0.7;          ///< s
   static constexpr double glance_tilt = 0.15;           ///< rad
-  static constexpr double aside = 0.6;  ///< rad: pan of glances to the left of the trunk, to the right and ahead, in
-                                        ///< turns
+  static constexpr double aside = 0.6;  ///< rad: pan of glances, to the left, to the right and ahead in turns
 
   bool is_glancing() const { return left_ > 0; }
   Neck begin_glance() {

@@ -55,8 +55,7 @@ class Image {
   }
   /// Returns the colour of a pixel in the picture.
   Color color(int column, int row) const { return colors_[index(column, row)]; }
-  /// Returns the least of red, green and blue, 0 to 255, of a pixel in the picture: its whiteness, when the rest is
-  /// grass.
+  /// Returns the least of red, green and blue, 0 to 255, of a pixel in the picture: its whiteness among grass.
   int least(int column, int row) const { return least_[index(column, row)]; }
   int width() const { return width_; }
   int height() const { return height_; }

@@ -107,8 +107,7 @@ class Localisation {
     if (rejected >= patience) rejected = 0, fell(distance, turn);
     return sight == used;
   }
-  /// Keeps the covariance from becoming too small: errors of a camera repeat in many pictures, so their mean is not
-  /// exact.
+  /// Keeps a least covariance: errors of a camera repeat in many pictures, so their mean is not exact.
   void keep_doubts() {
     constexpr double least = 0.03, least_yaw = 0.015;  // m, rad
     covariance_.xx = std::max(covariance_.xx, least * least), covariance_.yy = std::max(covariance_.yy, least * least);
@@ -248,8 +247,7 @@ class Localisation {
     const double distance = seen.norm(), e = off.norm();
     if (distance < 0.01) return;
     const Point arm = at - fit.place.at, across = e > 1e-6 ? (1 / e) * off : Point{};
-    const double cosine = (across.x * arm.x + across.y * arm.y) / distance;  // to the direction in which the point is
-                                                                             // seen
+    const double cosine = (across.x * arm.x + across.y * arm.y) / distance;  // to the direction of sight
     const double range = cosine * range_sigma(distance);
     const double side = std::sqrt(std::max(0.0, 1 - cosine * cosine)) * side_sigma(distance);
     const double variance = range * range + side * side;

@@ -38,14 +38,7 @@ enum Tunable {
   attack, goal_x, goal_width, kick_x, kick_y, kick_speed, kick_way,
   // clang-format on
 };
-enum WalkPhase : std::int64_t {
-  stands = 1,
-  walks = 2,
-  falls = 3,
-  gets_up = 4,
-  kicks = 5
-};  ///< phases of
-    ///< examples/walk
+enum WalkPhase : std::int64_t { stands = 1, walks = 2, falls = 3, gets_up = 4, kicks = 5 };  ///< see examples/walk
 
 constexpr double forgets = 10;       // s: a ball that nobody has seen for so long is searched for
 constexpr double trusts_itself = 3;  // s: age of its own sight from which it believes mates
@@ -247,8 +240,7 @@ class Play {
     if (!kick_off.empty() && kick_off[0] * now.tunable(attack) < 0) return keeps_place;  // the other team has it
     constexpr double near_goal = 0.6;  // m: a ball that the keeper fetches itself
     if (now.tunable(keeper) > 0 && std::abs(memory_.ball.x - now.tunable(home_x)) > near_goal) return keeps_place;
-    constexpr double begins = 0.1, goes_on = 0.3;  // m: it begins when nearer than mates by this; it goes on until
-                                                   // farther by this
+    constexpr double begins = 0.1, goes_on = 0.3;  // m: begins when nearer by this; goes on until farther by this
     const bool goes = memory_.role == goes_for_ball;
     bool is_best = true, is_nearest = true, somebody_goes = false;
     for_each_mate(now, [&](const TeamMessage& m) {
@@ -289,8 +281,7 @@ class Play {
     constexpr double at_feet = 0.6;  // m
     return memory_.age > since && (memory_.ball - me().at).norm() < at_feet;
   }
-  /// Walks to the last place of the ball and turns there; then in front of the other goal, then at its own place, and
-  /// so on.
+  /// Walks to the ball's last place and turns there; then before the other goal, then at its own place, and so on.
   Command search(const Step& now, const Steering& steering) const {
     constexpr double walks_for = 9, turns_for = 10, goes_back = 5;  // s
     constexpr double there = 0.8, before_goal = 2;                  // m

@@ -6,8 +6,7 @@
 namespace walking {
 namespace {
 
-/// A bone from the axis at its upper end to the axis at its lower end, seen along y: length, and the pitch at which it
-/// hangs.
+/// A bone between the axes at its upper and its lower end, seen along y: length, and the pitch at which it hangs.
 struct Bone {
   double length, pitch;
 };
