@@ -66,8 +66,7 @@ TEST(OtherRobots, SlowTheyTrotInEveryFullDynamics) {
   }
 }
 
-/// Returns a robot between A1 and Mini Cheetah and beyond: lengths differ by up to a quarter, masses by more; joints
-/// have random zeros and directions.
+/// Returns a robot like A1 and Mini Cheetah and beyond: lengths off by up to a quarter, masses by more, random joints.
 Numbers random_robot(unsigned seed) {
   std::mt19937 random(seed);
   const auto in = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };

@@ -13,8 +13,7 @@ void push_for_a_tenth(Walk& walk, const Vec3& force) {
   walk.push({0, 0, 0});
 }
 
-/// Pushes the base of a robot of 12 kg that trots with 0.4 m/s, at the time `when` for 0.1 s along the direction
-/// `angle`.
+/// Pushes the base of a robot of 12 kg that trots with 0.4 m/s, at the time `when` for 0.1 s along `angle`.
 void pushes(const std::string& motion, double angle, double when, double force, double least_height = 0.3,
             double most_tilt = 10 * degree, double settles = 1) {
   SCOPED_TRACE(motion + ", " + std::to_string(std::lround(angle / degree)) + " deg, " + std::to_string(when) + " s");

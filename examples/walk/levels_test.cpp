@@ -9,7 +9,7 @@ namespace {
 
 constexpr double period = 0.36;  // s, of a step
 
-/// Returns a motion that is moved at level 0 by forces, at level 1 by kinematics.
+/// Returns a motion with two levels: 0 by forces, 1 by kinematics.
 std::string levels(const std::string& by_forces, const std::string& start) {
   return "robots.walker.motion={levels: {forces: {use: motion." + by_forces +
          ", rate: 1000, joints: position, interpolate: 0.008, stiffness: 24.9, damping: 0.68}, "
