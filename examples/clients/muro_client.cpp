@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A client of muro's controller.jsonrpc in one file: POSIX sockets and nlohmann-json. It puts the rover of remote.yaml
-// in front of the wall, drives it until its laser sees the wall a metre ahead, and decides how far time passes.
+// in front of the wall, drives it until its laser sees the wall a metre ahead, and lets time pass only in its own
+// steps.
 //
 //     c++ -std=c++20 -o muro_client muro_client.cpp
 //     ./muro_client 4010

@@ -27,7 +27,7 @@ void receive(std::span<const double> list, std::span<const double> bytes, Take t
   enum { from, number, sent, received, rssi, size, first, header };
   for (; list.size() >= header; list = list.subspan(header)) {
     const auto begin = std::size_t(list[first]), length = std::size_t(list[size]);
-    if (begin + length > bytes.size()) return;  // the bytes of more messages than fit
+    if (begin + length > bytes.size()) return;  // the bytes of further messages did not fit
     if (const auto message = read(bytes.subspan(begin, length))) take(*message);
   }
 }

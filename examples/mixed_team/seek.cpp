@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Software of a robot on the ground, on wheels or on legs. It takes the nearest target that the team knows and no mate
-// claims, and goes there around obstacles of its laser and around mates. There it looks for the target by its camera,
-// else by its laser, and reports it. It knows its place by satellite navigation, odometry and its IMU.
+// claims, and goes there around mates and the obstacles that its laser sees. There it looks for the target by its
+// camera, else by its laser, and reports it. It knows its place by satellite navigation, odometry and its IMU.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -102,7 +102,7 @@ class Seek {
     Targets targets;
     Mates mates;
     std::int64_t claim = std::int64_t(Targets::none);
-    double seen = 0;             // s: for which it has seen the target that it claims
+    double seen = 0;             // s: time for which it has seen the target that it claims
     double nearest = 1e9;        // m: least distance to this target so far
     double waited = 0;           // s: time since then; without a claim: since the last one
     double heading = 0;          // rad: heading of its way, in its own axes

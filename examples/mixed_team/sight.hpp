@@ -84,7 +84,7 @@ struct Camera {
   /// Place seen at a pixel, m forward and left of the base, level, if it is `below` (m) the base's origin. Nothing for
   /// the sky, or for places farther than 20 times as far as down. `orientation` of the base: x, y, z, w.
   std::optional<Point> place(double u, double v, double below, std::span<const double> orientation) const {
-    const double right = (u - cx) / fx, down = (v - cy) / fy;  // of the ray, by its way along the axis
+    const double right = (u - cx) / fx, down = (v - cy) / fy;  // slopes of the ray against the axis
     const double c = muro_cos(pitch), s = muro_sin(pitch);
     const double ray[] = {c - s * down, -right, -s - c * down}, at[] = {x, 0, z};
     double r[3], p[3];

@@ -12,7 +12,7 @@ namespace quadruped {
 
 struct Course {
   Command wanted;      ///< command, approached with limited acceleration
-  Vector trim;         ///< m/s: added to it when the body has been too slow for long
+  Vector trim;         ///< m/s: added to the command when the body has been too slow for long
   double heading = 0;  ///< rad
   double height = 0;   ///< m: of the origin of the body above the ground
 

@@ -21,7 +21,7 @@ struct FootState {
 /// heading of the body.
 struct BodyState {
   Vector velocity;      ///< m/s
-  double ground = 0;    ///< m: plane through the middles of standing feet, below the body, along z
+  double ground = 0;    ///< m: z of the plane through the middles of standing feet, seen from the body
   Vector slope;         ///< 1: rise of this plane along x and y; z is 0
   double is_known = 0;  ///< 1 once a foot has stood
 

@@ -13,7 +13,7 @@ enum LegName { front_left, front_right, rear_left, rear_right };
 
 struct Gait {
   double period = 0.4;  ///< s, duration of a stride
-  double duty = 0.5;    ///< share of the stance; from 0.5 on at least two feet always stand
+  double duty = 0.5;    ///< share of a stride in stance; from 0.5 on at least two feet always stand
   static constexpr std::array<double, legs> offsets{0, 0.5, 0.5, 0};
 
   double stance_time() const { return duty * period; }

@@ -54,7 +54,7 @@ class Walk {
   const Pose& pose() { return world().value(robot_->base(), keys::pose); }
   const Twist& twist() { return world().value(robot_->base(), keys::twist); }
   double yaw() { return yaw_of(pose().orientation); }
-  /// Returns m/s, in a level frame with the heading of the robot.
+  /// Returns the velocity, m/s, in a level frame with the heading of the robot.
   Vec3 velocity() { return Eigen::AngleAxisd(-yaw(), Vec3::UnitZ()) * twist().linear; }
   void push(const Vec3& force) { push_->force = force; }
   void forget() { seen = Seen{}; }

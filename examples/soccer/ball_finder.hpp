@@ -29,7 +29,7 @@ class BallFinder {
   }
 
  private:
-  static constexpr double least_size = 2;  ///< px, radius
+  static constexpr double least_size = 2;  ///< px, least radius
   static constexpr int points = 16;        ///< points on a circle about a candidate
 
   struct Candidate {

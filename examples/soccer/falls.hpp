@@ -10,8 +10,7 @@ namespace soccer {
 /// Watches one player.
 class FallWatch {
  public:
-  /// `up`: component of the trunk's axis z along "up", 1: upright; `h`: s since the last call. Returns true once a
-  /// fall.
+  /// `up`: the trunk's axis z along "up", 1: upright; `h`: s since the last call. Returns true once for each fall.
   bool has_fallen(double up, double h) {
     lying_ = up > lies ? 0 : lying_ + h;
     upright_ = up > stands ? upright_ + h : 0;
@@ -25,8 +24,7 @@ class FallWatch {
   static constexpr double lies = 0.5;           // `up` below this: the player lies
   static constexpr double time_to_lie = 0.5;    // s: a player that lies so long has fallen
   static constexpr double stands = 0.95;        // `up` above this: the trunk is upright, as in a walk
-  static constexpr double time_to_stand = 1.0;  // s: upright so long, it stands; while it gets up, it sits upright for
-                                                // 0.6 s
+  static constexpr double time_to_stand = 1.0;  // s: upright so long, it stands; it sits upright for 0.6 s on the way
 
   double lying_ = 0, upright_ = 0;  // s
   std::int64_t is_down_ = 0;        // 1: its fall has been counted, and it has not stood since

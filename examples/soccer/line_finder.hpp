@@ -44,7 +44,7 @@ class LineFinder {
   using Candidates = Finds<Vector, 96>;
   static constexpr double farthest = 3.5;  ///< m
   static constexpr double nearest = 0.3;   ///< m
-  static constexpr int contrast = 28;      ///< of 255, least brightness of a ridge above the grass on both sides
+  static constexpr int contrast = 28;      ///< least brightness of a ridge above the grass on both sides, of 255
   static constexpr double widest = 0.25;   ///< m, greatest width on the ground, along the scan
 
   struct Scan {

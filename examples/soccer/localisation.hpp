@@ -196,7 +196,7 @@ class Localisation {
     return cost;
   }
 
-  /// Begins at several places when little is known; the places where it ends make up one distribution.
+  /// Fits lines from several places when little is known; the resulting places make up one distribution.
   Sight fit_lines(std::span<const Point> points) {
     const bool is_sure = sigma() < 0.15 && sigma_yaw() < 0.12;  // m, rad: lines are not mistaken for each other
     const double reach = is_sure ? 0 : 1.3;
@@ -222,7 +222,7 @@ class Localisation {
   static bool are_alike(const Fit& a, const Fit& b) {
     return (a.place.at - b.place.at).norm() < 0.1 && std::abs(wrapped(a.place.yaw - b.place.yaw)) < 0.1;
   }
-  /// Gives points far from a line weight at first, and then less and less.
+  /// Fits lines from one place. Points far from a line count at first, and then less and less.
   Fit fit_lines_from(const Place& from, std::span<const Point> points) const {
     constexpr double widths[] = {8, 8, 4, 4, 2, 2, 1, 1, 1};
     const Symmetric3 known = covariance_.inverse();

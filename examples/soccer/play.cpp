@@ -42,7 +42,7 @@ enum WalkPhase : std::int64_t { stands = 1, walks = 2, falls = 3, gets_up = 4, k
 
 constexpr double forgets = 10;       // s: a ball that nobody has seen for so long is searched for
 constexpr double trusts_itself = 3;  // s: age of its own sight from which it believes mates
-constexpr double unseen = 2;         // s: the kicker has lost the ball after so long
+constexpr double unseen = 2;         // s: after so long without a sight, the kicker has lost the ball
 constexpr double far_away = 100;     // m: cost of a player that does not know where the ball is
 
 class Play {
@@ -276,7 +276,7 @@ class Play {
     const Others::Other* const o = memory_.others.nearest(me().at, touch);
     return o && me().to_own(o->at).x > 0;
   }
-  /// Returns whether the ball was last seen at its feet and still lies there: it steps back to see the ball.
+  /// Returns whether the ball was last seen at its feet, and not lately: it probably lies there still.
   bool is_lost_at_feet(double since) const {
     constexpr double at_feet = 0.6;  // m
     return memory_.age > since && (memory_.ball - me().at).norm() < at_feet;

@@ -46,7 +46,7 @@ typedef struct {
   double speed;         /* m/s, at most */
   double laser_x;       /* m, the scanner in front of the centre of the vehicle */
   double period;        /* s between steps */
-  uint64_t rays;        /* of the scanner */
+  uint64_t rays;        /* number of rays of the scanner */
   uint64_t random;      /* state of the random numbers */
   double desired_turn;  /* at a side street: -1 right, 0 pass, +1 left */
   double desired_until; /* s */

@@ -50,7 +50,7 @@ class Gait {
   Side stance() const { return stance_; }
   const Pendulum& along_x() const { return x_; }
   const Pendulum& along_y() const { return y_; }
-  double yaw() const { return yaw_; }  ///< of the trunk
+  double yaw() const { return yaw_; }  ///< yaw of the trunk
   SolePlace sole(Side side, const GaitSettings& g) const;
   Reference reference(const GaitSettings& g) const;
   const Foothold& target() const { return target_; }
@@ -70,7 +70,7 @@ class Gait {
   double swing_part(const GaitSettings& g) const;
 
   std::array<Foothold, 2> feet_;  ///< where they stand, or stood last
-  Foothold target_;               ///< where the swing foot goes
+  Foothold target_;               ///< place where the swing foot goes
   Foothold xi_;                   ///< capture point when the swing foot begins to carry
   double astray_ = 0;             ///< m, error of the capture point at the end of the step
   Velocity speed_;                ///< velocity for which steps are made

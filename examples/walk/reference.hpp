@@ -39,7 +39,7 @@ struct SolePlace {
 struct Reference {
   Pendulum x, y;                                  ///< centre of mass
   double acceleration_x = 0, acceleration_y = 0;  ///< m/s^2, of the centre of mass
-  double yaw = 0;                                 ///< of the trunk
+  double yaw = 0;                                 ///< yaw of the trunk
   std::array<SolePlace, 2> soles;                 ///< left, right
   double left_share = 0.5;                        ///< share of the weight on the left foot
   Side stance = left_side;                        ///< foot that carries if only one does

@@ -28,7 +28,7 @@ void Springs::feel_at_rest(const BothLegs& sag, const BothLegs& behind, double h
 /// Leaves out the ankles, which feedback turns. Joints that meet their targets are found soon, before feedback does
 /// harm; springs come back smoothly.
 void Springs::feel(const BothLegs& sag, const BothLegs& behind, const Reference& now, double h) {
-  constexpr double meets = 0.04;   // of the largest sag: a joint that is less behind meets its target
+  constexpr double meets = 0.04;   // share of the largest sag: a joint that is less behind meets its target
   constexpr double soon = 0.02;    // s, for which all joints meet their targets
   constexpr double memory = 0.05;  // s, time constant of `given_`
   double along = 0, all = 0, largest_sag = 0, largest_behind = 0;

@@ -108,7 +108,7 @@ TEST(Gearbox, FrictionStopsItInTheTextbookWay) {
 }
 
 TEST(Gearbox, TheEfficiencyIsWhatOfTheMotorsEffortReachesALoad) {
-  // To raise a load M steadily, the motor gives M / eta; below M (2 - 1/eta) the load drives it back.
+  // Raising a load M steadily takes M / eta of the motor; below M (2 - 1/eta) the load drives it back.
   for (const double eta : {0.9, 0.7, 0.4}) {
     Train t{.gear = {.rotor_inertia = 0.01, .joint_inertia = 0.02, .loss = 1 / eta - 1}};
     for (int n = 0; n < 1000; ++n) t.step(1.001 / eta, 1);
