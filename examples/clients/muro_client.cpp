@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A client of muro's controller.jsonrpc in one file: POSIX sockets and nlohmann-json. It puts the rover of remote.yaml
-// in front of the wall, drives it until its laser sees the wall a metre ahead, and lets time pass only in its own
-// steps.
+// in front of the wall, drives it until its laser sees the wall a metre ahead, and controls how time passes.
 //
 //     c++ -std=c++20 -o muro_client muro_client.cpp
 //     ./muro_client 4010
