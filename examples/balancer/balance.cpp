@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Keeps a robot on two wheels upright, by its gyro, its accelerometer and the encoders of its wheels.
+// Keeps a robot on two wheels upright by its gyro, its accelerometer and the encoders of its wheels.
 //
-// The pitch is estimated by a complementary filter that also learns the bias of the gyro (Mahony, Hamel and Pflimlin,
-// Nonlinear Complementary Filters on the Special Orthogonal Group, IEEE Trans. Automatic Control 53, 2008; here about
-// one axis). Wheels are driven by speed: the acceleration of the axle is linear in pitch, its rate, speed and position,
-// with the poles of the loop at -6, -5, -1.5 and -1 /s (README.md). Frames follow ROS REP-103.
+// A complementary filter estimates the pitch and learns the bias of the gyro (Mahony, Hamel and Pflimlin, Nonlinear
+// Complementary Filters on the Special Orthogonal Group, IEEE Trans. Automatic Control 53, 2008; here about one axis).
+// Wheels are driven by speed: the acceleration of the axle is linear in pitch, its rate, speed and position, with the
+// poles of the loop at -6, -5, -1.5 and -1 /s (README.md). Frames follow ROS REP-103.
 #include <algorithm>
 #include <cmath>
 
@@ -19,8 +19,8 @@ constexpr double wheel_radius = 0.08;  // m
 constexpr double by_pitch = 22.3, by_rate = 3.21, by_speed = 1.94, by_position = 0.955;
 constexpr double filter_gain = 1;       // 1/s: how fast the accelerometer corrects the pitch
 constexpr double max_acceleration = 6;  // m/s^2
-constexpr double max_away = 0.5;        // m: no position is farther off for the controller
-constexpr double fallen = 1;            // rad: from there on the wheels stand still
+constexpr double max_away = 0.5;        // m: greatest error of position for the controller
+constexpr double fallen = 1;            // rad: from this pitch on the wheels stand still
 
 enum Input { angular_velocity, linear_acceleration, wheels };
 enum Output { wheel_speeds, estimated_pitch, estimated_bias };
@@ -48,7 +48,7 @@ class Balance {
     if (now.index() == 0) s.pitch = muro_atan2(-force[0], force[2]);
     estimate(rate[1], force, now.period(), now.tunable(bias_gain));
     const double pitch_rate = rate[1] - s.bias;
-    // the wheels turn against the body, which turns itself
+    // the wheels turn relative to the body, which turns, too
     const double position = wheel_radius * (0.5 * (turned[0] + turned[1]) + s.pitch);
     if (now.index() == 0) s.start = position;
     const double away = std::clamp(position - s.start, -max_away, max_away);
@@ -65,7 +65,7 @@ class Balance {
   void load(Loader& from) { state_ = from.get<State>(); }
 
  private:
-  /// What gravity leaves of the specific force when the acceleration of the axle is taken away tells the pitch.
+  /// Estimates pitch and bias. The specific force without the acceleration of the axle shows the pitch.
   void estimate(double rate, std::span<const double> force, double dt, double gain_of_bias) {
     State& s = state_;
     const double along = force[0] - muro_cos(s.pitch) * s.acceleration,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two-wheeled robots stand as long as the errors of their sensors are what their control code can bear.
+// Two-wheeled robots stand as long as their control code can tolerate the errors of their sensors.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -18,7 +18,7 @@ struct Balance {
   double farthest = 0;   ///< m
 };
 
-/// Of each robot, after the second in which it has come upright.
+/// Returns the balance of each robot, measured after the second in which it has become upright.
 std::map<std::string, Balance> balance(double seconds, const std::vector<std::string>& overrides = {}) {
   BuiltScenario built = build(read_scenario(scenario, overrides), test::plugins());
   const World& world = built.simulation->world();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Humanoids whose joints follow the clock walk as far as their legs say.
+// Humanoids whose joints follow the clock walk as far as the lengths of their legs say.
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"
@@ -10,7 +10,7 @@
 namespace muro::host {
 namespace {
 
-/// m: from hip to ankle, of two bones of so many metres and a knee of 0.6 rad.
+/// Returns the distance (m) from hip to ankle, for two bones of these lengths (m) and a knee of 0.6 rad.
 double leg_of(double thigh, double shin) {
   return std::sqrt(thigh * thigh + shin * shin + 2 * thigh * shin * std::cos(0.6));
 }

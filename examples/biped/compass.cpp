@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Walks by angles of joints that depend on time alone: no sensor is read, and nothing keeps the robot from falling but
-// a motion that does not let it fall (motion.biped).
+// Walks by angles of joints that depend on time alone. No sensor is read; the robot stays upright only in a motion that
+// does not let it fall (motion.biped).
 //
-// The legs swing like a pair of compasses: the line from hip to ankle of the stance leg goes evenly from `swing` ahead
-// to `swing` behind, that of the other leg the other way, with a knee that bends more on the way. Soles stay parallel
-// to the trunk. A step is 2 l sin(swing) long, with l the distance from hip to ankle.
+// The legs swing like a pair of compasses: the line from hip to ankle of the stance leg moves evenly from `swing` ahead
+// to `swing` behind. The line of the other leg moves the other way, with a knee that bends more on the way. Soles stay
+// parallel to the trunk. A step is 2 l sin(swing) long, with l the distance from hip to ankle.
 #include <cmath>
 
 #include "muro_controller.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The clients, and the session of docs/remote.md, with the scenario that is beside them.
+// The clients, and the session of docs/remote.md, with the scenario beside them.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -18,7 +18,7 @@ const std::string root = MURO_TEST_SOURCE_DIR "/";
 const std::string run_remote =
     "cd " + root + " && MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " " MURO_PROGRAM " run examples/clients/remote.yaml";
 
-/// A run of remote.yaml on a port that is free.
+/// A run of remote.yaml on a free port.
 class RemoteRun {
  public:
   explicit RemoteRun(const std::string& options)
@@ -37,7 +37,7 @@ class RemoteRun {
   RemoteRun& operator=(const RemoteRun&) = delete;
 
   const std::string& port() const { return port_; }
-  /// Waits for its end, and returns what it has printed.
+  /// Waits for its end, and returns its output.
   std::string finish() {
     char line[4096];
     while (std::fgets(line, sizeof line, pipe_)) output_ += line;
@@ -51,7 +51,7 @@ class RemoteRun {
   std::string port_, output_;
 };
 
-/// What comes back when all of `lines` is pasted at once, as into nc.
+/// Returns the replies when all of `lines` is pasted at once, as into nc.
 std::string paste(const std::string& port, const std::string& lines) {
   test::Peer client = test::Peer::tcp(std::uint16_t(std::stoi(port)));
   EXPECT_TRUE(client.say(lines));
@@ -171,7 +171,7 @@ TEST(PythonClient, IsNotNeededToRepeatARun) {
 }
 
 #ifdef OPENSSL
-/// A server for other machines, with a certificate of its own, and the options of a client that may talk to it.
+/// A server for other machines, with a certificate of its own, and the options of a client that may connect to it.
 struct Guarded {
   Guarded() {
     const auto made = run_command(OPENSSL

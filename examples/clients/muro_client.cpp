@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A client of muro's controller.jsonrpc in one file: POSIX sockets and nlohmann-json. It puts the rover of remote.yaml
-// in front of the wall, drives it until its laser sees the wall a metre ahead, and lets time pass only as far as it
-// wants.
+// in front of the wall, drives it until its laser sees the wall a metre ahead, and controls how time passes.
 //
 //     c++ -std=c++20 -o muro_client muro_client.cpp
 //     ./muro_client 4010
@@ -24,7 +23,7 @@ using Json = nlohmann::json;
 /// A connection. Every call waits for its reply; updates that come in between are kept.
 class MuroClient {
  public:
-  /// A port of this machine.
+  /// Connects to a port of this machine.
   explicit MuroClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in server{};
     server.sin_family = AF_INET;
@@ -37,7 +36,7 @@ class MuroClient {
   MuroClient(const MuroClient&) = delete;
   MuroClient& operator=(const MuroClient&) = delete;
 
-  /// The result of a method. Throws what the server says where there is none.
+  /// Returns the result of a method. Throws the message of the server when there is no result.
   Json call(const std::string& method, const Json& params = Json::object()) {
     send({{"jsonrpc", "2.0"}, {"id", ++last_id_}, {"method", method}, {"params", params}});
     for (;;) {
@@ -54,7 +53,7 @@ class MuroClient {
   Json get(const std::string& property) { return call("get", {{"properties", property}})["values"].front(); }
   void set(const std::string& property, const Json& value) { call("set", {{"property", property}, {"value", value}}); }
 
-  /// The next update of a subscription.
+  /// Returns the next update of a subscription.
   Json update() {
     while (updates_.empty()) updates_.push_back(receive()["params"]);
     Json first = updates_.front();
@@ -97,7 +96,7 @@ int main(int argc, char** argv) {
     muro.call("pause");
     muro.call("reset");  // so that all runs of this program are alike
     muro.call("place", {{"object", "rover"}, {"x", -1}, {"y", 0.5}, {"yaw", 0}});
-    muro.call("step", {{"seconds", 0.2}});  // the laser has looked from there
+    muro.call("step", {{"seconds", 0.2}});  // the laser has scanned from there
     for (int i = 0; i < 200; ++i) {
       const Json ranges = muro.get("rover/laser:ranges");
       const double ahead = ranges[ranges.size() / 2];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Drives ahead and stops before what is in its way: in C, with a block of state. brake.cpp, brake.f90 and brake.rs do
- * the same to the bit. */
+ * Drives ahead and stops before obstacles: in C, with a block of state. brake.cpp, brake.f90 and brake.rs do the same
+ * to the bit. */
 #include <stdio.h>
 
 #include "muro_controller.h"
@@ -28,7 +28,7 @@ static int step(void* state, const muro_controller_step* now, char* error, size_
   (void)error, (void)error_size;
   brake* b = state;
   const uint32_t rays = now->input_sizes[0];
-  double nearest = now->inputs[0][rays / 3]; /* of the middle third */
+  double nearest = now->inputs[0][rays / 3]; /* least range of the middle third */
   for (uint32_t i = rays / 3; i < rays - rays / 3; ++i)
     if (now->inputs[0][i] < nearest) nearest = now->inputs[0][i];
   double wanted = nearest - now->tunables[DISTANCE];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drives ahead and stops before what is in its way: in C++, as a class. brake.c does the same.
+// Drives ahead and stops before obstacles: in C++, as a class. brake.c does the same.
 #include <algorithm>
 
 #include "muro_controller.hpp"

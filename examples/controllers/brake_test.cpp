@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The controller in four languages: it stops before the wall, and in all of them in the same way.
+// The controller in four languages: it stops before the wall, in the same way in all of them.
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"
@@ -9,7 +9,7 @@
 namespace muro::host {
 namespace {
 
-/// Where the rover is every half second, m.
+/// Returns the place of the rover every half second, m.
 std::vector<double> drive(const std::string& library, const std::string& isolate) {
   const std::string control = "robots.rover.control.";
   const BuiltScenario built = build(read_scenario(MURO_TEST_SOURCE_DIR "/examples/controllers/brake.yaml",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The software of the base station: collects by radio what the team has found and confirmed, and when.
+// Software of the base station: collects by radio which targets the team has found and confirmed, and when.
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -25,7 +25,7 @@ class Collect {
                                           {"mission.confirmed", "1", 1, MURO_PORT_OWN},
                                           {"mission.last_found", "s", 1, MURO_PORT_OWN},
                                           {"mission.last_confirmed", "s", 1, MURO_PORT_OWN},
-                                          // of each target: x, y (m), 1 where it is one, 1 where it is confirmed
+                                          // for each target: x, y (m), 1 if there is one, 1 if it is confirmed
                                           {"mission.targets", "m, m, 1, 1", 4 * Targets::most, MURO_PORT_OWN}};
 
   explicit Collect(const Setup&) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The referee: the only one who knows true poses. It compares what the base station has been told with where targets
-// and robots really are. Nothing of what it says is read by the team.
+// The referee, the only one that knows true poses. It compares the reports at the base station with the true places of
+// targets and robots. The team reads nothing of what it writes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -58,9 +58,9 @@ class Judge {
  private:
   struct Tally {
     double found = 0, confirmed = 0, wrong = 0;
-    double sum = 0, worst = 0;  // m: by which what was told is off
+    double sum = 0, worst = 0;  // m: errors of the reported places
   };
-  /// What the base station was told of the target that is nearest to a point.
+  /// Report of the base station on the target nearest to a point.
   struct Claim {
     double off = 1e9;  // m
     bool is_confirmed = false;
@@ -88,7 +88,7 @@ class Judge {
         best = {off, rows[k + 3] != 0};
     return best;
   }
-  /// m: who flies over a target has not been there.
+  /// Returns the distance (m) in space: a robot that flies over a target has not been there.
   static double nearest_robot(const Step& now, std::span<const double> p) {
     const auto poses = now.input(robots);
     double least = 1e9;

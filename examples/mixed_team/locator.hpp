@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a robot is, by satellite navigation, by the velocity that its wheels or the receiver tell, and the heading of
-// its IMU: dead reckoning, drawn to each fix that comes.
+// Place of a robot by satellite navigation, by the velocity from its wheels or from the receiver, and by the heading of
+// its IMU: dead reckoning, corrected towards each new fix.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ namespace mixed_team {
 class Locator {
  public:
   /// `fix`: gps.position, m; `velocity`: gps.velocity, m/s, both east, north, up; `orientation`: x, y, z, w;
-  /// `odometry`: velocity in the axes of the base, or empty; s.
+  /// `odometry`: velocity in the axes of the base, or empty; `period`: s.
   void step(std::span<const double> fix, std::span<const double> velocity, std::span<const double> orientation,
             std::span<const double> odometry, double period) {
     yaw_ = yaw_of(orientation);
@@ -24,7 +24,7 @@ class Locator {
           odometry.empty() ? Point{velocity[0], velocity[1]} : turned({odometry[0], odometry[1]}, yaw_);
       at_ = at_ + period * rolled;
       height_ += period * velocity[2];
-      constexpr double trust = 0.3;  // of what a new fix is off
+      constexpr double trust = 0.3;  // share of the error that a new fix corrects
       const bool is_new = fix[0] != fix_[0] || fix[1] != fix_[1] || fix[2] != fix_[2];
       if (is_new) {
         at_ = at_ + trust * (Point{fix[0], fix[1]} - at_);
@@ -37,7 +37,7 @@ class Locator {
   const Point& at() const { return at_; }    ///< m
   double height() const { return height_; }  ///< m, above the origin of the map
   double yaw() const { return yaw_; }        ///< rad
-  /// What lies at `p` in the axes of the robot, on the map, and back.
+  /// Converts a point from the axes of the robot to the map, and back.
   Point to_map(const Point& p) const { return at_ + turned(p, yaw_); }
   Point to_own(const Point& p) const { return turned(p - at_, -yaw_); }
 

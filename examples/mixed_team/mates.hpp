@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the mates have told, and which target a robot takes: the nearest one that no mate claims.
+// Messages of the mates, and the right to a target: a robot takes the nearest one that no mate claims.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace mixed_team {
 
 struct Mate {
   std::int64_t name = -1;
-  double heard = -1e9;  ///< s: when it was heard last
+  double heard = -1e9;  ///< s: time of its last message
   Point at;             ///< m
   std::int64_t claims = 0;
   Point claim;  ///< m: place of the target that it claims
@@ -22,7 +22,7 @@ struct Mate {
 class Mates {
  public:
   static constexpr std::size_t most = 16;
-  static constexpr double forgotten = 3;  ///< s: who was not heard for so long claims nothing any more
+  static constexpr double forgotten = 3;  ///< s: a mate that was not heard for so long claims nothing any more
 
   void hear(const Message& m, double time) {
     Mate* place = &mates_[0];
@@ -36,12 +36,12 @@ class Mates {
     *place = {m.name, time, m.at, m.claim != Targets::none, m.claim != Targets::none ? m.targets[m.claim].at : Point{},
               m.cost};
   }
-  /// Whether a mate has a better right to a target than this robot, who could be there in `cost` s and claims it
-  /// already, or not: claims hold, and of two who claim the same the nearer one has it.
+  /// Returns whether a mate has a better right to a target than this robot, which could be there in `cost` s. `claims`:
+  /// it claims the target already. Claims hold; of two robots with the same claim the nearer one has it.
   bool hold(const Target& t, double time, double cost, std::int64_t name, bool claims) const {
     for (const Mate& m : mates_) {
       if (time - m.heard > forgotten || m.claims == 0 || distance(m.claim, t.at) > Targets::same) continue;
-      const double told = std::floor(std::min(cost, 255.0));  // as coarse as it is told
+      const double told = std::floor(std::min(cost, 255.0));  // rounded as in a message
       if (!claims || m.cost < told || (m.cost == told && m.name < name)) return true;
     }
     return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The one message of the team: where its sender is, which target it claims, and all targets that it knows. Everybody
-// tells it again and again, so that a message that is lost is made up for by the next, and passes on what it has heard,
-// so that robots out of each other's range hear of it by others. At most 106 bytes: a frame of IEEE 802.15.4 has 127.
+// The message of the team: the place of its sender, the target that it claims, and all targets that it knows. Each
+// robot sends it again and again, so the next message replaces a lost one. It passes on what it has heard, so robots
+// out of each other's range learn of it from others. At most 106 bytes: a frame of IEEE 802.15.4 has 127.
 #pragma once
 
 #include <algorithm>
@@ -16,15 +16,15 @@
 namespace mixed_team {
 
 struct Message {
-  Point at;                           ///< of the sender, m
-  std::int64_t name = 0;              ///< 16 bits by chance, that tell senders apart
+  Point at;                           ///< place of the sender, m
+  std::int64_t name = 0;              ///< 16 random bits that distinguish senders
   std::size_t claim = Targets::none;  ///< number of a target in the list
-  double cost = 0;                    ///< s that it takes to be there
-  Targets targets;                    ///< with `list` alone: those that have been seen so often are sent
+  double cost = 0;                    ///< s, time to get there
+  Targets targets;                    ///< write() leaves out those with too few sightings
 };
 
 namespace detail {
-constexpr std::uint8_t mark = 0x4d;     // the first byte of what the team sends
+constexpr std::uint8_t mark = 0x4d;     // first byte of the team's messages
 constexpr std::uint8_t no_claim = 255;  // in place of a number
 constexpr std::size_t head = 10, each = 6;
 
@@ -32,7 +32,7 @@ class Writer {
  public:
   explicit Writer(std::span<double> bytes) : bytes_(bytes) {}
   void byte(std::int64_t value) { bytes_[used_++] = double(value & 255); }
-  void word(double value) {  // of 16 bits, the lower byte first
+  void word(double value) {  // 16 bits, the lower byte first
     const auto v = std::int64_t(std::nearbyint(std::clamp(value, -32768.0, 65535.0)));
     byte(v), byte(v >> 8);
   }
@@ -64,7 +64,7 @@ class Reader {
 };
 }  // namespace detail
 
-/// Writes the bytes of a message; returns how many there are. `least`: targets with fewer sightings are left out.
+/// Writes the bytes of a message; returns their number. `least`: targets with fewer sightings are left out.
 inline std::size_t write(const Message& m, std::int64_t least, std::span<double> bytes) {
   std::array<std::size_t, Targets::most> sent{};
   std::size_t count = 0;
@@ -90,7 +90,7 @@ inline std::size_t write(const Message& m, std::int64_t least, std::span<double>
   return w.used();
 }
 
-/// None where the bytes are no message of the team.
+/// Returns the message; nothing when the bytes are no message of the team.
 inline std::optional<Message> read(std::span<const double> bytes) {
   detail::Reader r(bytes);
   if (r.left() < detail::head || r.byte() != detail::mark) return std::nullopt;

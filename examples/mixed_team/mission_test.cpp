@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The team at work, held against where crates and robots really are.
+// The team at work, compared with the true places of crates and robots.
 #include <gtest/gtest.h>
 
 #include <algorithm>

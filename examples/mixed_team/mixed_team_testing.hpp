@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For tests: the example, or a part of it, run and looked at from outside, where all is known.
+// The example, or a part of it, run and observed from outside with true poses, for tests.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace muro::mixed_team_test {
 
-/// Robots on the ground, by kind: what moves them, and how.
+/// Robots on the ground, grouped by how they move.
 inline const std::vector<std::vector<std::string>> kinds = {
     {"rover"}, {"cart"}, {"walker"}, {"mates_0", "mates_1"}, {"pacer"}};
 
@@ -27,7 +27,7 @@ class Mission {
 
   ObjectId base(const std::string& robot) { return world().find_robot(robot)->base(); }
   const Pose& pose(const std::string& robot) { return world().value(base(robot), keys::pose); }
-  /// What control code tells.
+  /// Returns values that control code writes.
   std::vector<double> told(ObjectId object, const std::string& name, const std::string& unit = "1") {
     const auto values = world().values(object, Key<double>{name, unit, ""});
     return {values.begin(), values.end()};
@@ -41,7 +41,7 @@ class Mission {
     Eigen::Vector2d at;
     bool confirmed;
   };
-  /// What the base station knows of the crates.
+  /// Returns the crates as the base station knows them.
   std::vector<Told> targets() {
     std::vector<Told> all;
     const std::vector<double> rows = told(base("station"), "mission.targets", "m, m, 1, 1");
@@ -49,14 +49,14 @@ class Mission {
       if (rows[i + 2] != 0) all.push_back({{rows[i], rows[i + 1]}, rows[i + 3] != 0});
     return all;
   }
-  /// m: where the crates really are.
+  /// Returns the true places of the crates, m.
   std::vector<Eigen::Vector2d> crates() {
     std::vector<Eigen::Vector2d> all;
     for (const RobotView* r : world().robots())
       if (r->name.rfind("crates", 0) == 0) all.push_back(pose(std::string(r->name)).position.head<2>());
     return all;
   }
-  /// m: from a point to the nearest crate.
+  /// Returns the distance from a point to the nearest crate, m.
   double off(const Eigen::Vector2d& p) {
     double least = 1e9;
     for (const Eigen::Vector2d& c : crates()) least = std::min(least, (p - c).norm());
@@ -67,7 +67,7 @@ class Mission {
   host::BuiltScenario built_;
 };
 
-/// A crate before each robot on the ground, and the flying one high above, so that all is over soon.
+/// Returns overrides with a crate before each robot on the ground, and the flying one high above: a short mission.
 inline std::vector<std::string> crates_ahead(std::vector<std::string> more = {}) {
   more.insert(more.end(),
               {"robots.crates.count=6",

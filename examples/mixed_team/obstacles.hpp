@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands around a robot, and how far it gets along a heading. In its own axes: x forward, y left, m, rad.
+// Obstacles around a robot, and the free way along a heading. In its own axes: x forward, y left, m, rad.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace mixed_team {
 
 class Obstacles {
  public:
-  explicit Obstacles(double radius) : radius_(radius) {}  ///< m: of the robot, as a disc
+  explicit Obstacles(double radius) : radius_(radius) {}  ///< m: radius of the robot as a disc
 
-  /// A disc; what there is no room for is left out.
+  /// Adds a disc. Discs beyond the capacity are left out.
   void add(const Point& p, double radius) {
     if (count_ < most) discs_[count_++] = {p, radius + radius_};
   }
-  /// m, at most `horizon`: how far the robot gets straight on along a heading. What it is in already stops it only
-  /// where it would go deeper.
+  /// Returns how far the robot gets straight on along a heading, m, at most `horizon`. A disc that it is already in
+  /// stops it only if it would go deeper.
   double free_way(double heading, double horizon) const {
     double way = horizon;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -28,18 +28,18 @@ class Obstacles {
       const double rest = discs_[i].radius * discs_[i].radius - p.y * p.y;
       if (p.x <= 0 || rest <= 0) continue;
       const double reach = p.x - std::sqrt(rest);
-      if (reach < 0 && p.x < 0.4 * discs_[i].radius) continue;  // beside it
+      if (reach < 0 && p.x < 0.4 * discs_[i].radius) continue;  // the disc is beside it
       way = std::min(way, std::max(0.0, reach));
     }
     return way;
   }
 
-  /// The heading that leads best to a goal in that direction, in the manner of the vector field histogram (Borenstein
-  /// and Koren, IEEE Trans. Robotics and Automation 7(3), 1991).
+  /// A heading and the free way along it (m). It leads best to a goal in a direction, in the manner of the vector field
+  /// histogram (Borenstein and Koren, IEEE Trans. Robotics and Automation 7(3), 1991).
   struct Way {
     double heading = 0, free = 0;
   };
-  /// `last`: the heading that was chosen before; who keeps to it passes an obstacle on one side.
+  /// `last`: the heading chosen last; a robot that keeps to it passes an obstacle on one side.
   Way best(double wanted, double distance, double last) const {
     constexpr int headings = 30;    // to either side
     constexpr double widest = 2.2;  // rad

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the team tells each other, and where a camera sees things: by themselves, against what they are to be.
+// Parts of the team's software, each alone against expected values: its messages, and the places that a camera sees.
 #include <gtest/gtest.h>
 
 #include "message.hpp"
@@ -83,7 +83,7 @@ TEST(Sight, SeesTheGroundBelowWhereItIs) {
   ASSERT_TRUE(p);
   EXPECT_NEAR(p->x, 0.1 + 0.4, 1e-12);
   EXPECT_NEAR(p->y, -0.6, 1e-12);
-  // rolled to the left by atan(0.1): the right side is higher, and it looks to the right
+  // rolled to the left by atan(0.1): the right side is higher, and the camera looks to the right
   const double half = 0.5 * std::atan(0.1), rolled[] = {std::sin(half), 0, 0, std::cos(half)};
   const Camera centred{.fx = 100, .fy = 100, .cx = 80, .cy = 60, .x = 0, .z = 0, .pitch = std::acos(-1) / 2};
   EXPECT_NEAR(centred.place(80, 60, 2, rolled)->y, 0.2, 1e-12);

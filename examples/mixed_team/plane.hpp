@@ -19,14 +19,14 @@ struct Point {
 inline double length(const Point& p) { return std::sqrt(p.x * p.x + p.y * p.y); }
 inline double distance(const Point& a, const Point& b) { return length(a - b); }
 inline double bearing(const Point& p) { return muro_atan2(p.y, p.x); }
-/// Turned counter-clockwise: from the axes of a robot with that heading to those of the map.
+/// Turns counter-clockwise: from the axes of a robot with that heading to the axes of the map.
 inline Point turned(const Point& p, double yaw) {
   const double c = muro_cos(yaw), s = muro_sin(yaw);
   return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
-/// The same direction within half a turn.
+/// Returns the same direction within half a turn.
 inline double wrapped(double angle) { return std::remainder(angle, 2 * 3.14159265358979323846); }
-/// Of a unit quaternion x, y, z, w.
+/// Returns the yaw of a unit quaternion x, y, z, w.
 inline double yaw_of(std::span<const double> q) {
   return muro_atan2(2 * (q[3] * q[2] + q[0] * q[1]), 1 - 2 * (q[1] * q[1] + q[2] * q[2]));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The software of a robot on the ground, on wheels or on legs: of the targets that the team knows it takes the nearest
-// one that no mate claims, goes there around what its laser and its mates tell, looks whether it is there, by its
-// camera, else by its laser, and tells. Where it is it knows by satellite navigation, odometry and its IMU.
+// Software of a robot on the ground, on wheels or on legs. It takes the nearest target that the team knows and no mate
+// claims, and goes there around mates and the obstacles that its laser sees. There it looks for the target by its
+// camera, else by its laser, and reports it. It knows its place by satellite navigation, odometry and its IMU.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -96,18 +96,18 @@ class Seek {
   }
 
  private:
-  /// All that a step leaves for the next.
+  /// State that a step leaves for the next.
   struct Memory {
     Locator me;
     Targets targets;
     Mates mates;
     std::int64_t claim = std::int64_t(Targets::none);
-    double seen = 0;             // s: how long it has seen the target that it claims
-    double nearest = 1e9;        // m: that it has been to it
-    double waited = 0;           // s: since then; without a claim: since there was one
-    double heading = 0;          // rad: of its way, in its own axes
-    std::int64_t given_up = 0;   // a bit for each target that was not where it was said to be
-    std::int64_t confirmed = 0;  // targets, by itself
+    double seen = 0;             // s: time for which it has seen the target that it claims
+    double nearest = 1e9;        // m: least distance to this target so far
+    double waited = 0;           // s: time since then; without a claim: since the last one
+    double heading = 0;          // rad: heading of its way, in its own axes
+    std::int64_t given_up = 0;   // a bit for each target that it has given up
+    std::int64_t confirmed = 0;  // number of targets that it has confirmed itself
     std::int64_t name = 0, messages = 0;
   };
 
@@ -117,7 +117,7 @@ class Seek {
   void load(Loader& from) { memory_ = from.get<Memory>(); }
 
  private:
-  static constexpr double near_by = 0.15;  // m: from where it stops, there it looks
+  static constexpr double near_by = 0.15;  // m: it looks for the target this near to its stopping point
 
   bool claims() const { return memory_.claim != std::int64_t(Targets::none); }
   const Target& target() const { return memory_.targets[std::size_t(memory_.claim)]; }
@@ -127,7 +127,7 @@ class Seek {
     if (memory_.claim == std::int64_t(i)) return;
     memory_.claim = std::int64_t(i), memory_.nearest = 1e9, memory_.waited = memory_.seen = 0;
   }
-  /// s: to a target, with the turn towards it.
+  /// Returns the time to a target (s), with the turn towards it.
   double cost(const Step& now, const Target& t) const {
     const Point way = memory_.me.to_own(t.at);
     return length(way) / now.tunable(speed) + std::abs(bearing(way)) / now.tunable(turn);
@@ -138,7 +138,7 @@ class Seek {
       const bool lost = memory_.mates.hold(target(), now.time(), cost(now, target()), memory_.name, true);
       if (lost || target().confirmed != 0) claim(Targets::none);
     }
-    constexpr double better = 0.5;  // of the cost: then it changes its mind
+    constexpr double better = 0.5;  // share of the cost: a target below it replaces the present one
     std::size_t best = Targets::none;
     double least = claims() ? better * cost(now, target()) : 1e9;
     for (std::size_t i = 0; i < memory_.targets.size(); ++i) {
@@ -149,15 +149,15 @@ class Seek {
       least = c, best = i;
     }
     if (best != Targets::none) claim(best);
-    if (!claims() && memory_.waited > now.tunable(patience)) memory_.given_up = 0;  // and it tries again
+    if (!claims() && memory_.waited > now.tunable(patience)) memory_.given_up = 0;  // then it tries all targets again
     watch(now);
   }
-  /// Whether it comes nearer.
+  /// Gives up a target when it comes no nearer.
   void watch(const Step& now) {
     constexpr double nearer = 0.1;  // m
     memory_.waited += now.period();
     if (!claims()) return;
-    constexpr double detour = 2;  // times as long it may take, while it is under way
+    constexpr double detour = 2;  // factor of its patience while it is under way
     const double rest = distance(memory_.me.at(), target().at);
     const bool is_there = rest < now.tunable(stop) + near_by;
     if (rest < memory_.nearest - nearer) memory_.nearest = rest, memory_.waited = 0;
@@ -189,7 +189,7 @@ class Seek {
     memory_.heading = best.heading - twist[5] * now.period();
   }
 
-  /// What the laser sees, but for the target it goes to; other targets, which it may be too high to see; and mates.
+  /// Returns echoes of the laser without its target; other targets, which the laser may be too high to see; and mates.
   Obstacles obstacles(const Step& now) const {
     Obstacles all(now.tunable(radius));
     const double around = 2 * now.tunable(target_radius);
@@ -210,7 +210,7 @@ class Seek {
       if (now.time() - mate.heard < Mates::forgotten) all.add(memory_.me.to_own(mate.at), 0.8 * now.tunable(radius));
     return all;
   }
-  /// Of something that stands there: not lost, and not of the ground that the beam meets because the robot leans.
+  /// Returns whether a ray shows an object: no lost reading, and not the ground before a robot that leans.
   bool is_echo(const Step& now, std::size_t i) const {
     const double range = now.input(ranges)[i];
     if (range <= 0 || range >= now.input(max_range)[0]) return false;
@@ -225,7 +225,7 @@ class Seek {
     return {now.tunable(laser_x) + range * muro_cos(angle), range * muro_sin(angle)};
   }
 
-  /// It stands before the target.
+  /// Looks for the target in front of it.
   void look(const Step& now) {
     if (!sees(now)) return;
     memory_.seen += now.period();
@@ -234,7 +234,7 @@ class Seek {
     ++memory_.confirmed;
     claim(Targets::none);
   }
-  /// By its camera; without one by its laser; without both it believes what it was told.
+  /// Returns whether its camera sees the target, or its laser if it has no camera. Without both it trusts the report.
   bool sees(const Step& now) const {
     const double around = 2 * now.tunable(target_radius);
     const auto is_here = [&](const Point& p) { return distance(memory_.me.to_map(p), target().at) < around; };

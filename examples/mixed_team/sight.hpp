@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds what has the colour of a target in a picture, and where around the robot it lies: by the lens, by where the
-// camera sits on the robot, and by the height at which a target is seen.
+// Finds the colour of a target in a picture, and the place of the target around the robot: from the lens, from the pose
+// of the camera on the robot, and from the height of a target.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct Blob {
   bool is_cut = false;  ///< it reaches to the rim of the picture
 };
 
-/// The colour by its hue: 0 red, 1/6 yellow, 1/3 green; of bright, saturated colours alone.
+/// A colour by its hue: 0 red, 1/6 yellow, 1/3 green. Only bright, saturated colours match.
 struct Hue {
   double hue = 0, tolerance = 0;
 
@@ -32,15 +32,15 @@ struct Hue {
   }
 };
 
-/// Memory for one picture, used again for the next.
+/// Finds blobs. It keeps its memory for the next picture.
 class BlobFinder {
  public:
-  /// `rgb`: 0 to 255, rows from the top. Blobs of fewer pixels than `least` are left out.
+  /// Returns blobs of `least` pixels or more. `rgb`: 0 to 255, rows from the top.
   std::span<const Blob> find(std::span<const double> rgb, int width, int height, const Hue& hue, int least) {
     blobs_.clear();
     open_.assign(std::size_t(width) * std::size_t(height), 0);
     stack_.reserve(open_.size());      // each pixel comes once
-    blobs_.reserve(open_.size() / 2);  // they do not touch
+    blobs_.reserve(open_.size() / 2);  // blobs do not touch
     for (std::size_t i = 0; i < open_.size(); ++i)
       open_[i] = hue.matches(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]) ? 1 : 0;
     for (std::size_t i = 0; i < open_.size(); ++i) {
@@ -52,7 +52,7 @@ class BlobFinder {
   }
 
  private:
-  /// All pixels that hang together with one, row by row and column by column.
+  /// Returns all pixels that are connected with one along rows and columns.
   Blob fill(int start, int width, int height) {
     Blob blob;
     stack_.assign(1, start);
@@ -72,19 +72,19 @@ class BlobFinder {
   }
 
   std::vector<Blob> blobs_;
-  std::vector<std::uint8_t> open_;  // 1: of the colour, and not yet of a blob
+  std::vector<std::uint8_t> open_;  // 1: of the colour, and not yet in a blob
   std::vector<int> stack_;
 };
 
-/// Of a pinhole camera, px, and where it sits: m in the frame of the base, rad downwards.
+/// A pinhole camera, px, and its pose: m in the frame of the base, rad downwards.
 struct Camera {
   double fx = 1, fy = 1, cx = 0, cy = 0;
   double x = 0, z = 0, pitch = 0;
 
-  /// m forward and left of the base, level: what is seen there if it is `below` (m) the origin of the base. None where
-  /// it looks at the sky, or farther than 20 times as far as down. `orientation` of the base: x, y, z, w.
+  /// Place seen at a pixel, m forward and left of the base, level, if it is `below` (m) the base's origin. Nothing for
+  /// the sky, or for places farther than 20 times as far as down. `orientation` of the base: x, y, z, w.
   std::optional<Point> place(double u, double v, double below, std::span<const double> orientation) const {
-    const double right = (u - cx) / fx, down = (v - cy) / fy;  // of the ray, by its way along the axis
+    const double right = (u - cx) / fx, down = (v - cy) / fy;  // slopes of the ray against the axis
     const double c = muro_cos(pitch), s = muro_sin(pitch);
     const double ray[] = {c - s * down, -right, -s - c * down}, at[] = {x, 0, z};
     double r[3], p[3];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sees targets in the pictures of a camera by their colour alone, and tells where around the robot they lie.
+// Finds targets in the pictures of a camera by their colour alone, and reports where around the robot they are.
 
 #include "muro_controller.hpp"
 #include "sight.hpp"

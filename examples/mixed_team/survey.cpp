@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The software of the flying robot: it flies over an area in lanes, tells the team where its camera sees targets
-// (spot.cpp), and comes home and lands. Where it is it knows by satellite
-// navigation and its IMU, with their errors.
+// Software of the flying robot: it flies over an area in lanes, reports to the team where its camera sees targets
+// (spot.cpp), comes home and lands. It knows its place by satellite navigation and its IMU, with their errors.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -67,13 +66,13 @@ class Survey {
  private:
   enum Phase : std::int64_t { climbs, sweeps, returns, lands, has_landed };
 
-  /// All that a step leaves for the next.
+  /// State that a step leaves for the next.
   struct Memory {
     Locator me;
     Targets targets;
-    Point home;           // m: where it has started
-    double ground = 0;    // m: its height there
-    double pictures = 0;  // that it has looked at
+    Point home;           // m: place where it started
+    double ground = 0;    // m: height of this place
+    double pictures = 0;  // number of pictures so far
     std::int64_t phase = climbs, turn = 0, is_full = 0, name = 0, messages = 0;
   };
 
@@ -84,7 +83,7 @@ class Survey {
 
  private:
   void look(const Step& now) {
-    constexpr double lowest = 0.5;  // of the altitude: below, it sees too little around a target
+    constexpr double lowest = 0.5;  // share of the altitude: below, it sees too little around a target
     if (now.input(seen).empty() || now.input(seen)[0] == memory_.pictures) return;
     memory_.pictures = now.input(seen)[0];
     if (memory_.me.height() < lowest * now.tunable(altitude)) return;
@@ -95,7 +94,7 @@ class Survey {
     }
   }
 
-  /// Ends of lanes: 0 and 1 of the first lane, 3 and 2 of the second, and so on, so that it flies to and fro.
+  /// Returns ends of lanes: 0 and 1 of the first lane, 3 and 2 of the second, and so on: it flies to and fro.
   Point waypoint(const Step& now, std::int64_t number) const {
     const std::int64_t lane = number / 2;
     const bool east = (number % 2 == 0) == (lane % 2 != 0);

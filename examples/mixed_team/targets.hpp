@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a member of the team knows of the targets. Whoever finds one adds it; lists of several robots become one by
-// place: what lies nearer to each other than `same` is one target.
+// The targets that a member of the team knows. A member that finds one adds it. Lists of several robots are merged by
+// place: entries nearer to each other than `same` are one target.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace mixed_team {
 
 struct Target {
   Point at;                    ///< m: mean of the sightings
-  std::int64_t sightings = 0;  ///< how many there were
+  std::int64_t sightings = 0;  ///< number of sightings
   std::int64_t confirmed = 0;  ///< 1: somebody has been there
 };
 
@@ -35,7 +35,7 @@ class Targets {
       if (const double d = distance(targets_[i].at, p); d < nearest) nearest = d, best = i;
     return best;
   }
-  /// One sighting more. Where there is no room, it takes that of a target that has been seen least.
+  /// Adds a sighting. When the list is full, it replaces the target that was seen least.
   void see(const Point& p) {
     std::size_t i = place(p);
     if (i == none) {
@@ -46,8 +46,8 @@ class Targets {
     ++t.sightings;
     t.at = t.at + (1.0 / double(t.sightings)) * (p - t.at);
   }
-  /// What a mate knows: the place by more sightings is the better one, what is confirmed stays so. Returns its number
-  /// here; `none` where there is no room.
+  /// Adds the knowledge of a mate: the place with more sightings is taken, and a confirmed target stays confirmed.
+  /// Returns its number here; `none` when the list is full.
   std::size_t learn(const Target& told) {
     const std::size_t i = place(told.at);
     if (i == none) return none;

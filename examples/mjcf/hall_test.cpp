@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The hall as a user runs it, and as its state shows.
+// The hall, run as a user runs it, and checked by its state.
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"
@@ -25,7 +25,7 @@ TEST(Hall, RunsWithoutAWarning) {
 }
 
 TEST(Hall, ServosOfTheFileHoldTheArm) {
-  // at rest a servo of gain 60 N m/rad is off by the torque of gravity over that
+  // at rest the error of a servo of gain 60 N m/rad is the torque of gravity divided by this gain
   BuiltScenario built = open();
   World& world = built.simulation->world();
   built.simulation->run_for(5);
@@ -56,7 +56,7 @@ TEST(Hall, TheBallLiesOnTheFloor) {
 }
 
 TEST(Hall, InOtherMotionsJointsFollowWhatTheFileDrivesThemBy) {
-  // where its servos hold the arm follows from their gains and its weight, whatever moves it
+  // the rest position of the arm follows from the gains of its servos and its weight, with any motion
   BuiltScenario as_in_file = open(),
                 by_bullet =
                     open({"robots.arm.motion={use: motion.bullet, base: fixed, rate: 500, shadow: {use: motion.ode, "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// humanoid.urdf against the data of ROBOTIS OP3, DARwIn-OP and the XM430-W350, and on its feet.
+// humanoid.urdf against the data of ROBOTIS OP3, DARwIn-OP and the XM430-W350, and standing on its feet.
 #include <gtest/gtest.h>
 
 #include "examples/models/stand_testing.hpp"
@@ -92,7 +92,7 @@ TEST(Humanoid, Has21JointsWithTheRangesOfDarwinAndTheServosOfOp3) {
     });
     ASSERT_NE(row, std::end(rows));
     EXPECT_EQ(link.axis, row->axis);
-    // what turns about y is alike on both sides, the rest mirrored
+    // joints about y are alike on both sides, the others are mirrored
     const bool mirrored = right && row->axis != y;
     EXPECT_NEAR(link.limits.lower, mirrored ? -row->high : row->low, 1e-12);
     EXPECT_NEAR(link.limits.upper, mirrored ? -row->low : row->high, 1e-12);
@@ -160,7 +160,7 @@ TEST(Humanoid, IsWeighedByTheFourCellsOfItsSoles) {
 }
 
 TEST(Humanoid, DoesNotTouchItself) {
-  // self-collision pushes joints from where drives hold them
+  // self-collision pushes joints away from where drives hold them
   for (const auto& [pose, motion] : {std::pair<std::string, std::string>{"joints: {}", "bullet"},
                                      {crouch, "bullet"},
                                      {"joints: {}", "articulated"},

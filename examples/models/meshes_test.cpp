@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The meshes are what their script writes, and models with them are whole.
+// The meshes are the output of their script, and models with them are complete.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// quadruped_a1.urdf against the data of Unitree A1, and on its feet.
+// quadruped_a1.urdf against the data of Unitree A1, and standing on its feet.
 #include <gtest/gtest.h>
 
 #include "examples/models/stand_testing.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// soccer_omni.urdf: its size, and that its wheels move it as it is told.
+// soccer_omni.urdf: its size, and its motion on its wheels as commanded.
 #include <gtest/gtest.h>
 
 #include "examples/models/stand_testing.hpp"

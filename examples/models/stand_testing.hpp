@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For tests: a model of this folder that stands on flat ground.
+// A model of this folder that stands on flat ground, for tests.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace muro::models {
 
 inline const std::string folder = MURO_TEST_SOURCE_DIR "/examples/models/";
 
-/// A model with these keys of a robot, `{...}` without the braces, built.
+/// Builds a scenario of a model with these keys of a robot, `{...}` without the braces.
 inline host::BuiltScenario built(const std::string& model, const std::string& keys) {
   const test::ScratchFolder scratch;
   const std::string text = "world: {objects: {ground: {shape: plane}}}\nrobots: {r: {model: " + folder + model +
@@ -41,7 +41,7 @@ inline double mass_of(const host::BuiltScenario& b) {
   return mass;
 }
 
-/// Whether the base has kept its height within `tolerance` (m) and has tilted by less than 0.1 rad after `seconds`.
+/// Returns whether the base has kept its height within `tolerance` (m) and tilts by less than 0.1 rad after `seconds`.
 inline bool stands(host::BuiltScenario& b, double seconds, double tolerance = 0.02) {
   const auto base = [&]() -> const Pose& { return b.simulation->world().value(robot_of(b).base(), keys::pose); };
   const double height = base().position.z();
@@ -50,7 +50,7 @@ inline bool stands(host::BuiltScenario& b, double seconds, double tolerance = 0.
   return std::abs(base().position.z() - height) < tolerance && upright > std::cos(0.1);
 }
 
-/// Moments of inertia are those of a body: positive, and none above the sum of the others.
+/// Returns whether moments of inertia are those of a body: positive, and none above the sum of the others.
 inline bool is_possible(const Inertia& i) {
   const double sum = i.ixx + i.iyy + i.izz, largest = std::max({i.ixx, i.iyy, i.izz});
   return std::min({i.ixx, i.iyy, i.izz}) > 0 && 2 * largest <= sum;

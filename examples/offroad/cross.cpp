@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Crosses hills to a goal by a 3D laser scanner, around what is too steep.
-// Each scan becomes a grid of heights around the vehicle, level and turned as the vehicle is. Headings are compared by
-// how far they lead before the ground under the wheels and beside them is too steep or unknown, by how uneven it is
-// until then, and by how much they get nearer to the goal (in the manner of Lacroix et al., Autonomous Rover Navigation
-// on Unknown Terrains, Int. J. Robotics Research 21, 2002). Frames follow ROS REP-103.
+// Crosses hills to a goal by a 3D laser scanner, around steep ground. Each scan becomes a grid of heights around the
+// vehicle, level, with the heading of the vehicle. Headings are compared by how far they lead before the ground under
+// the wheels and beside them is too steep or unknown, by the unevenness until then, and by how much they get nearer to
+// the goal (in the manner of Lacroix et al., Autonomous Rover Navigation on Unknown Terrains, Int. J. Robotics Research
+// 21, 2002). Frames follow ROS REP-103.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,14 +19,14 @@ using namespace muro::controller;
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double scanner_x = 0.1, scanner_z = 0.33, ground_z = -0.09;  // m: in the frame of the vehicle
-constexpr double aside[] = {-0.45, -0.17, 0.17, 0.45};  // m: the ruts of the wheels, and a margin to either side
-constexpr double under_vehicle = 0.8;                   // m: what the scanner cannot see
+constexpr double aside[] = {-0.45, -0.17, 0.17, 0.45};  // m: the ruts of the wheels, and a margin on either side
+constexpr double under_vehicle = 0.8;                   // m: area that the scanner cannot see
 
 struct Vector {
   double x, y, z;
 };
 
-/// From the frame of the vehicle to a level one that has its heading.
+/// Rotation from the frame of the vehicle to a level frame with its heading.
 struct Levelling {
   Vector rows[3];
   double yaw;  // rad
@@ -48,7 +48,7 @@ struct Levelling {
   }
 };
 
-/// The mean height of what was seen in each cell around the vehicle.
+/// Mean height of the points that were seen in each cell around the vehicle.
 class HeightGrid {
  public:
   void clear() { cells_.fill({}); }
@@ -141,7 +141,7 @@ class Cross {
 
   static double wrapped(double angle) { return angle - 2 * pi * std::round(angle / (2 * pi)); }
 
-  /// Of the rays, in the frame of the vehicle.
+  /// Finds the directions of the rays in the frame of the vehicle.
   void find_directions(const Step& now) {
     const std::size_t columns = std::size_t(now.integer_input(at_columns)[0]);
     for (std::size_t i = 0; i < now.input(at_ranges).size(); ++i) {
@@ -153,7 +153,7 @@ class Cross {
     }
   }
 
-  /// The ground that the vehicle stands on is as it leans; around it is what the scan shows.
+  /// Fills the grid: the ground under the vehicle leans as the vehicle does; the scan shows the ground around it.
   void see(const Step& now, const Levelling& level) {
     grid_.clear();
     for (double x = -under_vehicle; x <= under_vehicle; x += 0.1)
@@ -167,12 +167,12 @@ class Cross {
     }
   }
 
-  /// The ground along a heading, this much aside.
+  /// Ground along a heading, at a distance to the side.
   struct Rut {
-    double at = 0, height = 0;  // m: of the last height that is known
+    double at = 0, height = 0;  // m: the last height that is known
     bool is_steep = false;
     double unevenness = 0;  // squares of slopes, summed over the way
-    /// `height`: at the distance `to`, where it is known.
+    /// `next`: height at the distance `to`, if it is known.
     void follow(double to, std::optional<double> next, double steepest) {
       if (!next) return;
       const double slope = (*next - height) / (to - at);
@@ -210,7 +210,7 @@ class Cross {
   double place_in_team_;  // 0 in the middle
   std::vector<Vector> directions_;
   HeightGrid grid_;
-  double last_ = 0;  // rad: the heading it chose last, in the world
+  double last_ = 0;  // rad: heading chosen last, in the world
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Off-road vehicles at two levels cross the hills, as the pose of each and the surface of hills.png show.
+// Off-road vehicles at two levels cross the hills, checked by the pose of each and the surface of hills.png.
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"
@@ -14,13 +14,13 @@ const std::string folder = MURO_TEST_SOURCE_DIR "/examples/offroad";
 
 struct Crossing {
   std::vector<double> most_tilt;   ///< rad, of each vehicle
-  std::vector<double> most_above;  ///< m: of the middle of a vehicle over the ground, at most and at least
+  std::vector<double> most_above;  ///< m: greatest and least height of a vehicle's middle above the ground
   std::vector<double> least_above;
   std::vector<Vec3> end;
   std::vector<std::string> names;
 };
 
-/// Drives for so many seconds.
+/// Drives for `seconds`.
 Crossing drive(double seconds, const std::vector<std::string>& overrides = {}) {
   BuiltScenario built = build(read_scenario(folder + "/offroad.yaml", overrides), test::plugins());
   HeightmapFiles files(*built.simulation);
@@ -42,7 +42,7 @@ Crossing drive(double seconds, const std::vector<std::string>& overrides = {}) {
       }
       seen.most_tilt[r] = std::max(seen.most_tilt[r], std::acos((pose.orientation * Vec3::UnitZ()).z()));
       const double above = pose.position.z() - ground->height;
-      if (i > 10) {  // it has been put down
+      if (i > 10) {  // the vehicle has been put down
         seen.most_above[r] = std::max(seen.most_above[r], above);
         seen.least_above[r] = std::min(seen.least_above[r], above);
       }

@@ -33,17 +33,17 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-/// What is kept of a robot.
+/// Data of one robot.
 struct RobotBattery {
   In<Twist> twist;
   Out<double> energy;
   Out<double> power;
-  double mass = 0;  ///< kg, of the robot
+  double mass = 0;  ///< kg, mass of the robot
 };
 
 class Battery final : public PerRobotAlgorithm<RobotBattery> {
  public:
-  /// P = P_idle + c_rr m g |v| / efficiency (rolling resistance on level ground), paid for the period that just ended.
+  /// P = P_idle + c_rr m g |v| / efficiency (rolling resistance on level ground), taken for the period that just ended.
   void step(const Step& step, Range range) override {
     for (const RobotBattery& battery : robots(range)) {
       *battery.power = idle_power_ + drag_per_mass_ * battery.mass * battery.twist->linear.norm();

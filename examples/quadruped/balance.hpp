@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the feet that stand have to push, so that the body keeps its height, its attitude and its speed.
+// Forces of the standing feet with which the body keeps its height, its attitude and its speed.
 #pragma once
 
 #include <algorithm>
@@ -11,31 +11,31 @@
 
 namespace quadruped {
 
-/// Of feet on the body, level frame: N and, about the centre of mass, N m.
+/// Wrench of the feet on the body, level frame: N and, about the centre of mass, N m.
 struct BodyWrench {
   Vector force, torque;
 };
 
-/// Shares a wrench among feet that push and do not pull: the forces f_i that make
-///     |sum f_i - F|^2 + |sum r_i x f_i - T|^2 / l^2, each row by its weight, + |f|^2   least
-/// (Focchi et al., Autonomous Robots 41, 2017, without the constraints), then cut to the cone of friction.
+/// Shares a wrench among feet that push and do not pull. The forces f_i minimise
+/// |sum f_i - F|^2 + |sum r_i x f_i - T|^2 / l^2, each row by its weight, + |f|^2
+/// (Focchi et al., Autonomous Robots 41, 2017, without the constraints). Then they are cut to the cone of friction.
 struct ForceDistribution {
   double length = 0.2;           ///< m: a torque T counts as much as a force T / length
-  double friction = 0.5;         ///< of the feet, 1
-  double least = 5, most = 300;  ///< N, of a foot along z
+  double friction = 0.5;         ///< 1, friction of the feet
+  double least = 5, most = 300;  ///< N, limits for a foot along z
 
-  /// What is left open of each component of the wrench, as part of it, when the feet cannot have all of them: of two
-  /// feet no forces turn the body about the line through both.
+  /// Share of each component of the wrench that may stay open when the feet cannot produce all of them: forces of two
+  /// feet cannot turn the body about the line through both.
   std::array<double, 6> slack{0.05, 0.05, 1e-4, 1e-3, 1e-3, 0.02};
 
-  /// `stands`: which feet; `arms`: from the centre of mass to each foot, m, level frame. Returns forces, N.
+  /// Returns forces, N. `stands`: which feet stand; `arms`: from the centre of mass to each foot, m, level frame.
   std::array<Vector, legs> share(const BodyWrench& wanted, const std::array<bool, legs>& stands,
                                  const std::array<Vector, legs>& arms) const;
 };
 
 namespace detail {
 
-/// Solves m x = b for a symmetric positive definite m, by Cholesky's method; x takes the place of b.
+/// Solves m x = b for a symmetric positive definite m, by Cholesky's method; x replaces b.
 inline void solve(std::array<std::array<double, 6>, 6>& m, std::array<double, 6>& b) {
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
@@ -83,14 +83,14 @@ inline std::array<Vector, legs> ForceDistribution::share(const BodyWrench& wante
   return forces;
 }
 
-/// Springs and dampers that hold the body, by the mass and the inertia that they move.
+/// Gains of springs and dampers that hold the body, relative to the mass and the inertia that they move.
 struct BodyGains {
-  double speed = 8;                      ///< 1/s: acceleration by what is missing of the speed along the ground
-  double trim = 1;                       ///< 1/s: what is missing for long is added to the speed that is wanted
+  double speed = 8;                      ///< 1/s: acceleration / missing speed along the ground
+  double trim = 1;                       ///< 1/s: rate at which speed that stays missing is added to the wanted speed
   double height = 150, climb = 20;       ///< 1/s^2, 1/s
   double attitude = 200, rotation = 25;  ///< 1/s^2, 1/s: roll and pitch
   double heading = 40, turn = 15;        ///< 1/s^2, 1/s: yaw
-  double place = 20;                     ///< 1/s^2: back over the feet, while all of them stand
+  double place = 20;                     ///< 1/s^2: pull to the place over the feet while all of them stand
 };
 
 }  // namespace quadruped

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the body is held to: speed, heading and height, which follow commands evenly.
+// Targets of the body: speed, heading and height, which follow commands evenly.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +11,12 @@
 namespace quadruped {
 
 struct Course {
-  Command wanted;      ///< what it follows, as fast as it may
-  Vector trim;         ///< m/s: by which it aims beyond that, since it has been too slow for long
+  Command wanted;      ///< command, approached with limited acceleration
+  Vector trim;         ///< m/s: added to the command when the body has been too slow for long
   double heading = 0;  ///< rad
   double height = 0;   ///< m: of the origin of the body above the ground
 
-  /// `trots`: else it stands, whatever it is told; `velocity`: of the body, m/s, level frame; `dt`: s.
+  /// `trots`: when false, the robot stands, whatever is commanded; `velocity`: of the body, m/s, level frame; `dt`: s.
   void follow(const Model& model, const Command& told, bool trots, const Vector& velocity, double dt) {
     const Command go = trots ? told : Command{};
     height = nearer(height, model.height, model.climb * dt);
@@ -28,7 +28,7 @@ struct Course {
       trim = {};
       return;
     }
-    // a push, which the feet answer by themselves, is not to wind it up
+    // the trim must not grow by a push, to which the feet react on their own
     const auto missing = [](double is, double by_command) {
       return std::clamp(by_command - is, -slow_error, slow_error);
     };
@@ -36,7 +36,7 @@ struct Course {
     trim.x = std::clamp(trim.x + gain * missing(velocity.x, wanted.forward), -most_trim, most_trim);
     trim.y = std::clamp(trim.y + gain * missing(velocity.y, wanted.left), -most_trim, most_trim);
   }
-  /// What the speed is held to.
+  /// Returns the target of the speed.
   Command aim() const { return {wanted.forward + trim.x, wanted.left + trim.y, wanted.turn}; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How fast the body moves and how high it is above the ground, by the legs that stand and by the accelerometer.
+// Velocity of the body and its height above the ground, from the legs that stand and from the accelerometer.
 #pragma once
 
 #include <array>
@@ -10,24 +10,24 @@
 
 namespace quadruped {
 
-/// Where the middle of a foot is, seen from the body, and how fast the point where it touches the ground moves away
-/// from it: m, m/s, along the axes of a level frame with the heading of the body. The velocity is that in a frame that
-/// does not turn, so that a foot that neither slips nor lifts has minus the velocity of the body.
+/// Middle of a foot, seen from the body, and velocity of its point of contact relative to the body: m, m/s, along the
+/// axes of a level frame with the heading of the body. The velocity is that in a frame that does not turn, so that a
+/// foot that neither slips nor lifts has minus the velocity of the body.
 struct FootState {
   Vector position, velocity;
 };
 
-/// A complementary filter: the accelerometer tells changes, a foot that does not slip the mean. Frame: level, with the
+/// A complementary filter: the accelerometer gives changes, feet that do not slip give the mean. Frame: level, with the
 /// heading of the body.
 struct BodyState {
   Vector velocity;      ///< m/s
-  double ground = 0;    ///< m: of the plane on which the middles of standing feet are, below the body, along z
-  Vector slope;         ///< 1: rise of that plane along x and y; z is 0
+  double ground = 0;    ///< m: z of the plane through the middles of standing feet, seen from the body
+  Vector slope;         ///< 1: rise of this plane along x and y; z is 0
   double is_known = 0;  ///< 1 once a foot has stood
 
-  /// `believed`: from 0 to 1, how far each foot stands; `acceleration`: without gravity, m/s^2; `turn`: of the frame,
-  /// rad/s; `trust`: 1/s, in the legs; `settling`: 1/s, of the ground's height. A foot that would have the body jump by
-  /// more than `jump` (m/s) slips or has not come to rest, and counts less.
+  /// `believed`: from 0 to 1, how firmly each foot stands; `acceleration`: without gravity, m/s^2; `turn`: of the
+  /// frame, rad/s; `trust`: 1/s, in the legs; `settling`: 1/s, of the ground's height. A foot that would make the body
+  /// jump by more than `jump` (m/s) slips or is not at rest yet, and counts less.
   void update(const std::array<FootState, legs>& feet, const std::array<double, legs>& believed,
               const Vector& acceleration, double turn, double trust, double settling, double dt) {
     velocity = velocity + dt * (acceleration - cross(Vector{0, 0, turn}, velocity));
@@ -50,7 +50,7 @@ struct BodyState {
     ground += share(settling, standing) / standing * height;
     is_known = 1;
   }
-  /// The slope of the ground by each pair of feet that stand, in turn (Kaczmarz's method). `rate`: 1/s.
+  /// Updates the slope of the ground by each pair of standing feet in turn (Kaczmarz's method). `rate`: 1/s.
   void incline(const std::array<FootState, legs>& feet, const std::array<double, legs>& believed, double turn,
                double rate, double dt) {
     slope = slope - dt * cross(Vector{0, 0, turn}, slope);

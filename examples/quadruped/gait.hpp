@@ -12,21 +12,21 @@ inline constexpr int legs = 4;
 enum LegName { front_left, front_right, rear_left, rear_right };
 
 struct Gait {
-  double period = 0.4;  ///< s, of a stride of each leg
-  double duty = 0.5;    ///< part of it in stance; from 0.5 on always two feet at least stand
+  double period = 0.4;  ///< s, duration of a stride
+  double duty = 0.5;    ///< share of a stride in stance; from 0.5 on at least two feet always stand
   static constexpr std::array<double, legs> offsets{0, 0.5, 0.5, 0};
 
   double stance_time() const { return duty * period; }
   double swing_time() const { return (1 - duty) * period; }
 };
 
-/// Where a leg is in its stride.
+/// Place of a leg in its stride.
 struct LegPhase {
   bool swings = false;
   double progress = 0;  ///< 0 to 1, of its stance or of its swing
 };
 
-/// Time in strides. While the robot stands, the clock stands, too, and all legs are in stance.
+/// Clock in strides. While the robot stands, the clock stands, too, and all legs are in stance.
 struct GaitClock {
   double phase = 0;  ///< 0 to 1
   double runs = 0;   ///< 1: it trots
@@ -38,7 +38,7 @@ struct GaitClock {
     return {true, (at - gait.duty) / (1 - gait.duty)};
   }
   void start(const Gait& gait) { phase = gait.duty - 0.5, runs = 1; }
-  /// Goes on by `dt` s. It stops where a pair of legs has come down, if it `may_stop`.
+  /// Advances by `dt` s. Stops when a pair of legs has come down, if it `may_stop`.
   void advance(const Gait& gait, double dt, bool may_stop) {
     if (runs == 0) return;
     const double before = phase;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For tests: quadrupeds that differ from those of examples/models in lengths, masses, limits, and in what their joints
-// call 0 and forward, and the scenario in which they trot.
+// Test quadrupeds that differ from those of examples/models in lengths, masses, limits, and in the zeros and directions
+// of their joints; and the scenario in which they trot.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace muro::quadruped_test {
 
-/// A quadruped by its numbers: m, kg, N m, rad.
+/// Numbers of a quadruped: m, kg, N m, rad.
 struct Numbers {
   double hip_front, hip_rear, hip_side, hip_up, abduction, thigh, shank, foot_radius;
   double trunk, hip_mass, thigh_mass, shank_mass, foot_mass;
@@ -25,7 +25,7 @@ struct Numbers {
   double mass() const { return trunk + 4 * (hip_mass + thigh_mass + shank_mass + foot_mass); }
 };
 
-/// Of the class of Mini Cheetah (mit-biomimetics/Cheetah-Software: lengths, masses, efforts), joints mirrored.
+/// Returns a robot like Mini Cheetah (mit-biomimetics/Cheetah-Software: lengths, masses, efforts), joints mirrored.
 inline Numbers mini_cheetah() {
   return {.hip_front = 0.19,
           .hip_rear = -0.19,
@@ -52,7 +52,7 @@ inline Numbers mini_cheetah() {
           .knee_zero = -1.2};
 }
 
-/// 30 kg, long legs, knees that point to each other, hips above the middle of the trunk.
+/// Returns a robot of 30 kg with long legs, knees that point to each other, and hips above the middle of the trunk.
 inline Numbers large() {
   return {.hip_front = 0.28,
           .hip_rear = -0.28,
@@ -79,7 +79,7 @@ inline Numbers large() {
           .knee_zero = 0};
 }
 
-/// 2 kg on legs of 16 cm.
+/// Returns a robot of 2 kg on legs of 16 cm.
 inline Numbers small() {
   return {.hip_front = 0.1,
           .hip_rear = -0.1,
@@ -116,7 +116,7 @@ class GeneratedRobot {
  public:
   explicit GeneratedRobot(const Numbers& n) : n_(n) {}
 
-  /// Legs as they stand in the file.
+  /// Legs in the order of the file.
   static constexpr std::array<const char*, 4> legs{"RR", "RL", "FR", "FL"};
 
   std::string urdf() const {
@@ -126,7 +126,7 @@ class GeneratedRobot {
     for (const std::string leg : legs) text += leg_of(leg);
     return text + "</robot>";
   }
-  /// The sign and the angle at 0 of each joint, in the order of the file.
+  /// Signs of the joints, or their angles at 0, in the order of the file.
   std::string signs() const {
     return all([&](const std::string& leg, int) { return sign(leg); });
   }
@@ -136,7 +136,7 @@ class GeneratedRobot {
   double position(const std::string& leg, int j, double angle) const { return sign(leg) * (angle - zero(leg, j)); }
   double bend(const std::string& leg) const { return leg[0] == 'F' ? n_.bend_front : n_.bend_rear; }
 
-  /// The scenario, with what it needs beside the model; `keys`: of the robot, `tunables`: beside those of the model.
+  /// Returns the scenario. `tunables`: beside those of the model; `world`: further lines of the world.
   std::string scenario(const std::string& motion, const std::string& tunables, const std::string& world = "") const {
     std::string joints, feet, contacts;
     for (const std::string leg : legs) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Between the joints of a robot, as its model has them, and the angles of legs: order, directions and zeros.
+// Converts the joints of a robot, as its model has them, to the angles of legs and back: order, directions and zeros.
 #pragma once
 
 #include <algorithm>
@@ -20,15 +20,15 @@ namespace quadruped {
 
 inline constexpr int joints_of_leg = 3, joints = legs * joints_of_leg;
 
-/// What is wrong with a number in the scenario.
+/// Returns the error for a wrong argument in the scenario.
 inline std::invalid_argument complaint(std::string_view argument, std::string_view text, const std::string& allowed) {
   return std::invalid_argument("argument `" + std::string(argument) + "` is \"" + std::string(text) + "\"; it is " +
                                allowed);
 }
 
-/// Between the joints of the robot, as they are connected, and the angles of `Leg`.
+/// Converts the joints of the robot, as they are connected, to the angles of `Leg`.
 struct JointMap {
-  std::array<int, legs> place{0, 1, 2, 3};  ///< where the joints of front left, front right, ... are connected
+  std::array<int, legs> place{0, 1, 2, 3};  ///< places of the joints of front left, front right, ... in the connection
   std::array<double, joints> sign, offset;  ///< by place: angle = sign * position + offset, rad
 
   explicit JointMap(const muro::controller::Setup& setup) {

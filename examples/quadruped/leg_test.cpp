@@ -22,7 +22,7 @@ using quadruped::Vector;
 double length(const Vector& v) { return std::sqrt(dot(v, v)); }
 Vec3 eigen(const Vector& v) { return {v.x, v.y, v.z}; }
 
-/// Angles within the reach of a leg that bends this way, not quite straight.
+/// Random legs, and angles that a leg can reach: bent in its direction, and not quite straight.
 struct RandomLegs {
   std::mt19937 random{7};
   double next(double low, double high) { return std::uniform_real_distribution(low, high)(random); }
@@ -74,7 +74,7 @@ TEST(Leg, WhatIsOutOfReachIsDrawnNear) {
   EXPECT_TRUE(std::isfinite(length(leg.jacobian({0, 0, 0}).rates({1, 1, 1}, 1e-4)))) << "a straight leg";
 }
 
-/// The feet of a model whose joints stand at these positions, seen from the base, by the simulator.
+/// Returns the feet of a model with joints at these positions, seen from the base, by the simulator.
 std::vector<Vec3> feet_of(const std::string& model, const std::vector<std::string>& feet, const std::string& joints) {
   const test::ScratchFolder folder;
   const std::string file = folder.file(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot by its numbers: all that `trot` knows of it comes from here.
+// A robot by its numbers. They are all that `trot` knows of it.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace quadruped {
 
-/// A robot and how it is to walk.
+/// A robot and its walk.
 struct Model {
   std::array<Leg, legs> leg;
   JointMap joints;
@@ -25,18 +25,18 @@ struct Model {
   Placement placement;
   ForceDistribution distribution;
   BodyGains gains;
-  Vector center, inertia, effort;  ///< m, of all but the legs; kg m^2; N m, of abduction, hip and knee
+  Vector center, inertia, effort;  ///< m, without the legs; kg m^2; N m, of abduction, hip and knee
   LegMasses leg_masses;
   Vector stiffness, damping;  ///< N m/rad, N m s/rad: of the joints of a swinging leg
   double mass, gravity, height, foot_radius, wider, lift, press, speed;
   double acceleration, turn_acceleration, climb, reach_speed, trust, settling, leaning;
 
-  /// Moments of inertia by the mass and the squared distances between hips, where none are given: of robots of the
-  /// class of Unitree A1 and Mini Cheetah, whose trunks carry half the mass.
+  /// Moments of inertia / mass / squared distances between hips, used when no moments are given. Values of robots like
+  /// Unitree A1 and Mini Cheetah, whose trunks carry half the mass.
   static constexpr double by_width = 0.17, by_length = 0.2;
 
   explicit Model(const muro::controller::Setup& s);
-  /// Where the middle of a foot is below its hip, seen from the body: m.
+  /// Returns the place of the middle of a foot below its hip, seen from the body: m.
   Vector below_hip(int name) const {
     const Leg& l = leg[std::size_t(name)];
     const double out = l.abduction < 0 ? -wider : wider;

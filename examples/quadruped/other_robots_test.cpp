@@ -11,8 +11,8 @@
 namespace muro::quadruped_test {
 namespace {
 
-/// Holds for a robot that trots with this speed (m/s) for so many seconds, and that is pushed then by an impulse (N s)
-/// of half its mass to the left.
+/// Checks a robot that trots with `speed` (m/s) for `seconds`, and is then pushed to the left by an impulse (N s) of
+/// half its mass.
 void expect_a_trot(Walk& walk, double speed, double seconds, double height, double mass) {
   walk.run(1.5);
   walk.forget();
@@ -66,7 +66,7 @@ TEST(OtherRobots, SlowTheyTrotInEveryFullDynamics) {
   }
 }
 
-/// Between A1 and Mini Cheetah and beyond: lengths off by up to a quarter, masses by more, joints as they come.
+/// Returns a robot like A1 and Mini Cheetah and beyond: lengths off by up to a quarter, masses by more, random joints.
 Numbers random_robot(unsigned seed) {
   std::mt19937 random(seed);
   const auto in = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
@@ -77,7 +77,7 @@ Numbers random_robot(unsigned seed) {
   n.trunk = in(3, 9), n.hip_mass = in(0.3, 0.7), n.thigh_mass = in(0.4, 0.9), n.shank_mass = in(0.05, 0.2);
   n.foot_mass = in(0.01, 0.06), n.armature = in(0, 0.006), n.friction = in(0, 0.3);
   n.trunk_size = {in(0.3, 0.5), in(0.1, 0.2), in(0.08, 0.14)};
-  const double effort = 1.2 * n.mass() * 9.81 * (n.thigh + n.shank) / 4;  // several times what standing needs
+  const double effort = 1.2 * n.mass() * 9.81 * (n.thigh + n.shank) / 4;  // several times the effort of standing
   n.effort = {effort, effort, effort}, n.speed = in(12, 30);
   n.bend_front = in(0, 1) < 0.7 ? -1 : 1, n.bend_rear = in(0, 1) < 0.7 ? -1 : 1;
   n.mirrored = in(0, 1) < 0.5, n.hip_zero = in(-0.5, 0.5), n.knee_zero = in(-0.5, 0.5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a swinging foot goes: the place on the ground by Raibert's rule, and the way there.
+// Way of a swinging foot, and its place on the ground by Raibert's rule.
 #pragma once
 
 #include <algorithm>
@@ -10,18 +10,18 @@
 
 namespace quadruped {
 
-/// What the robot is told to do, in a level frame with its heading: m/s, m/s, rad/s.
+/// Commanded motion in a level frame with the heading of the robot: m/s, m/s, rad/s.
 struct Command {
   double forward = 0, left = 0, turn = 0;
 };
 
 struct Placement {
-  double gain = 0.05;      ///< s: by which a foot is placed farther out for each m/s that the robot is too fast
-  double farthest = 0.15;  ///< m, of the foot from the projection of its hip
+  double gain = 0.05;      ///< s: shift of a foot outwards for each m/s that the robot is too fast
+  double farthest = 0.15;  ///< m, greatest distance of the foot from the projection of its hip
   double height = 0.3;     ///< m, of the body
   double gravity = 9.81;   ///< m/s^2
 
-  /// The middle of the foot at touchdown, seen from the body, level and with its heading; z is 0.
+  /// Returns the middle of the foot at touchdown, seen from the body, level and with its heading; z is 0:
   ///     hip + v T / 2 + k (v - v_wanted) + h / (2 g) v x w   with the hip turned by w T / 2, T the time of stance
   /// (Raibert, Legged Robots that Balance, 1986; the term for curves: Kim et al., arXiv 1909.06586).
   Vector target(const Vector& foot_below_hip, const Vector& velocity, const Command& wanted, double stance_time) const {
@@ -41,14 +41,14 @@ struct Motion {
   Vector position, velocity;
 };
 
-/// The way of a foot in the air, seen from the body: along the ground a cubic that begins and ends with the speed of
-/// the ground, so that the foot is neither dragged when it lifts nor when it lands; upwards the square of a sine.
+/// Way of a foot in the air, seen from the body. Along the ground it is a cubic that begins and ends with the speed of
+/// the ground, so the foot is dragged neither when it lifts nor when it lands. Upwards it is the square of a sine.
 struct Arc {
   Vector from;            ///< m: where it was lifted
   double lift = 0.06;     ///< m, above the straight line between both ends
   double duration = 0.2;  ///< s
 
-  /// `progress` from 0 to 1; `to` in m; `ground` is the velocity of the ground, m/s.
+  /// `progress` from 0 to 1; `to` in m; `ground`: velocity of the ground, m/s.
   Motion at(double progress, const Vector& to, const Vector& ground) const {
     const double t = std::clamp(progress, 0.0, 1.0), pi = 3.14159265358979323846;
     const double h = t * t * (3 - 2 * t), dh = 6 * t * (1 - t);

@@ -13,7 +13,7 @@ void push_for_a_tenth(Walk& walk, const Vec3& force) {
   walk.push({0, 0, 0});
 }
 
-/// Pushes the base of a robot of 12 kg that trots with 0.4 m/s, at this time, for 0.1 s along this direction.
+/// Pushes the base of a robot of 12 kg that trots with 0.4 m/s, at the time `when` for 0.1 s along `angle`.
 void pushes(const std::string& motion, double angle, double when, double force, double least_height = 0.3,
             double most_tilt = 10 * degree, double settles = 1) {
   SCOPED_TRACE(motion + ", " + std::to_string(std::lround(angle / degree)) + " deg, " + std::to_string(when) + " s");
@@ -68,7 +68,7 @@ TEST(Push, AStandingRobotStepsAndStandsAgain) {
   EXPECT_LT(walk.seen.most_tilt, 10 * degree);
 }
 
-/// Where the base is 1 s after a push, with so many steps a second.
+/// Returns the place of the base 1 s after a push, with `rate` steps a second.
 Vec3 place_after_push(const std::string& motion, int rate, double angle) {
   Walk walk(scenario,
             Walk::alone({"robots.walker.motion.use=motion." + motion, "robots.walker.trot.tunables=[forward=0.4]",

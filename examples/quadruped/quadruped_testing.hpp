@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For tests: a robot that trots, watched while it does.
+// A trotting robot that is observed, for tests.
 #pragma once
 
 #include <algorithm>
@@ -17,12 +17,12 @@ namespace muro::quadruped_test {
 inline const std::string scenario = MURO_TEST_SOURCE_DIR "/examples/quadruped/quadruped.yaml";
 inline constexpr double degree = M_PI / 180;
 
-/// What was seen of a robot, from `forget` on.
+/// Observations of a robot since the last `forget`.
 struct Seen {
   double lowest = 1e9, highest = -1e9;  ///< m: origin of the base
   double most_tilt = 0;                 ///< rad
   std::string touched;                  ///< a link other than the feet, if one touched something
-  double off = 0;                       ///< m/s: largest error of the velocity that it estimates, along the ground
+  double off = 0;                       ///< m/s: largest error of its estimated velocity along the ground
 };
 
 /// One robot of a scenario, and a hand that pushes its base.
@@ -43,7 +43,7 @@ class Walk {
       if (slot && is_foot) feet_.push_back(static_cast<const Wrench*>(slot->place));
     }
   }
-  /// The robots other than the one that the example is about.
+  /// Returns overrides without the robots that the example is not about.
   static std::vector<std::string> alone(std::vector<std::string> more = {}) {
     more.insert(more.end(), {"robots.mates=off", "robots.a1=off"});
     return more;
@@ -54,11 +54,11 @@ class Walk {
   const Pose& pose() { return world().value(robot_->base(), keys::pose); }
   const Twist& twist() { return world().value(robot_->base(), keys::twist); }
   double yaw() { return yaw_of(pose().orientation); }
-  /// m/s, in a level frame with the heading of the robot.
+  /// Returns the velocity, m/s, in a level frame with the heading of the robot.
   Vec3 velocity() { return Eigen::AngleAxisd(-yaw(), Vec3::UnitZ()) * twist().linear; }
   void push(const Vec3& force) { push_->force = force; }
   void forget() { seen = Seen{}; }
-  /// Parts of the time in which 0, 1, ... 4 feet carried something, as the forces of contacts tell.
+  /// Returns shares of the time in which 0, 1, ... 4 feet carried something, by the forces of contacts.
   std::vector<double> feet_down(double seconds) {
     std::vector<double> counts(5, 0);
     const int steps = int(std::lround(seconds / 0.005));

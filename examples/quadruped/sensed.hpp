@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the sensors say, in a level frame that has the heading of the body.
+// Readings of the sensors in a level frame with the heading of the body.
 #pragma once
 
 #include <array>
@@ -12,24 +12,24 @@
 
 namespace quadruped {
 
-/// As they come in: joints as the robot has them, orientation x y z w, the rest in the frame of the body.
+/// Raw readings: joints as the robot has them, orientation x y z w, the rest in the frame of the body.
 struct Readings {
   std::span<const double> position, velocity;                   ///< rad, rad/s: 12 each
   std::span<const double> orientation, rotation, acceleration;  ///< 1, rad/s, m/s^2 (specific force)
-  std::span<const double> contact;                              ///< 1: the foot stands; empty: nobody knows
+  std::span<const double> contact;                              ///< 1: the foot stands; empty: unknown
 };
 
 struct Sensed {
-  Rotation level;                          ///< from the frame of the body to the level one
+  Rotation level;                          ///< from the frame of the body to the level frame
   Angles attitude;                         ///< rad
   Vector rotation;                         ///< rad/s
   Vector force;                            ///< m/s^2, specific force
   std::array<Vector, legs> angles, rates;  ///< rad, rad/s
-  /// Of the middle of each foot, and of its lowest point; frame of the body.
+  /// Jacobians of the middle of each foot, and of its lowest point; frame of the body.
   std::array<Leg::Jacobian, legs> jacobians, contacts;
   std::array<FootState, legs> feet;
   std::array<bool, legs> touches;
-  bool feels;  ///< whether the feet tell what they touch
+  bool feels;  ///< whether the feet measure contacts
 
   Sensed(const Model& model, const Readings& r) {
     const Rotation body = Rotation::of(r.orientation);
@@ -54,7 +54,7 @@ struct Sensed {
     }
   }
 
-  /// Of the robot, frame of the body, m.
+  /// Returns the centre of mass of the robot, frame of the body, m.
   Vector center_of_mass(const Model& model) const {
     const double of_leg = model.leg_masses.sum();
     Vector sum = (model.mass - legs * of_leg) * model.center;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which feet stand and which swing: by the clock, and by what they touch.
+// Decides which feet stand and which swing: by the clock, and by their contacts.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +11,12 @@
 
 namespace quadruped {
 
-/// Of a leg, kept from step to step.
+/// State of a leg, kept from step to step.
 struct LegState {
   double swings = 0;   ///< 1: by the clock it is in the air
   double touched = 1;  ///< 1: it has found the ground since it was lifted, and pushes
-  double stood = 0;    ///< s: since then
-  Vector lifted_at;    ///< m: its foot, seen from the body, level
+  double stood = 0;    ///< s: time since it found the ground
+  Vector lifted_at;    ///< m: place of its foot when it was lifted, seen from the body, level
 };
 
 struct Stride {
@@ -25,8 +25,8 @@ struct Stride {
   void begin(const Sensed& seen) {
     for (std::size_t i = 0; i < legs; ++i) leg[i].touched = !seen.feels || seen.touches[i];
   }
-  /// A foot that touches early in the second half of its swing stands from then on; one that finds no ground when it
-  /// should stand, does not. Feet that do not feel stand by the clock.
+  /// Updates the legs. A foot that touches early, in the second half of its swing, stands from then on. A foot that
+  /// should stand and finds no ground does not. Feet without sensors stand by the clock.
   void advance(const Gait& gait, const GaitClock& clock, const Sensed& seen, double dt) {
     for (int i = 0; i < legs; ++i) {
       LegState& l = leg[std::size_t(i)];
@@ -46,7 +46,7 @@ struct Stride {
     for (std::size_t i = 0; i < legs; ++i) all[i] = leg[i].touched != 0;
     return all;
   }
-  /// 0 to 1: feet come to rest within a while.
+  /// Returns how firmly each foot stands, 0 to 1: feet come to rest within a while.
   std::array<double, legs> believed() const {
     std::array<double, legs> all{};
     for (std::size_t i = 0; i < legs; ++i) all[i] = std::min(1.0, leg[i].stood / comes_to_rest);
@@ -54,7 +54,7 @@ struct Stride {
   }
 
  private:
-  static constexpr double landing = 0.5;         // part of a swing after which it may touch
+  static constexpr double landing = 0.5;         // share of a swing after which it may touch
   static constexpr double comes_to_rest = 0.03;  // s
 };
 

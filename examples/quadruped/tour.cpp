@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tells a robot by the clock how fast to go: the command is an output of its own, which other control code reads.
+// Commands the speed of a robot by the clock. The command is an output of its own, which other control code reads.
 #include <array>
 #include <optional>
 #include <stdexcept>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace muro::controller;
 
-/// From so many seconds of simulated time on, m/s, m/s and rad/s in the axes of the base.
+/// Part of the tour: begins at a simulated time (s), with m/s, m/s and rad/s in the axes of the base.
 struct Leg {
   double from = 0, forward = 0, left = 0, turn = 0;
 };
@@ -59,7 +59,7 @@ class Tour {
   static constexpr std::size_t most = 64;
   std::array<Leg, most> legs_{};
   std::size_t count_ = 0;
-  double begun_ = 0;  // parts of the tour, with the one that runs
+  double begun_ = 0;  // number of parts that have begun
 };
 
 }  // namespace

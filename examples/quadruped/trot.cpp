@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Trots: diagonal pairs of legs swing in turn to where Raibert's rule puts their feet, the others push so that the body
-// keeps its height, its attitude and its speed. Joints are driven by efforts. All numbers of the robot are tunables and
-// arguments (tunables.hpp, README.md); by default those of examples/models/quadruped.urdf.
+// Trots: diagonal pairs of legs swing in turn to the places of Raibert's rule. The others push so that the body keeps
+// its height, its attitude and its speed. Joints are driven by efforts. All numbers of the robot are tunables and
+// arguments (tunables.hpp, README.md); the defaults are those of examples/models/quadruped.urdf.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -75,7 +75,7 @@ class Trot {
   };
   static_assert(sizeof(State) <= save_size);
 
-  /// It stands where it is, as high as it is.
+  /// Begins in the present place, at the present height.
   void begin(const Sensed& seen) {
     double ground = 0;
     for (const FootState& foot : seen.feet) ground += foot.position.z / legs;
@@ -90,7 +90,7 @@ class Trot {
     return {now.tunable(tunable::forward), now.tunable(tunable::left), now.tunable(tunable::turn)};
   }
 
-  /// Once it is up it steps where it is told to go, where a push moves it, and where its feet stand badly.
+  /// Starts steps, once the robot is up, on a command, when a push moves it, and when its feet stand badly.
   void start_and_stop(const Sensed& seen, const Step& now) {
     State& s = state_;
     if (std::max(std::abs(seen.attitude.roll), std::abs(seen.attitude.pitch)) > fallen) s.has_fallen = 1;
@@ -98,7 +98,7 @@ class Trot {
     if (s.clock.runs == 0 && is_up && wants_to_step(seen, now, 1)) s.clock.start(model_.gait);
     s.clock.advance(model_.gait, now.period(), !wants_to_step(seen, now, 0.5));
   }
-  /// `bound`: part of what makes a standing robot step.
+  /// `bound`: share of the thresholds above which a standing robot steps.
   bool wants_to_step(const Sensed& seen, const Step& now, double bound) const {
     const auto is_told = [](const Command& c) {
       return muro_hypot(c.forward, c.left) > 0.02 || std::abs(c.turn) > 0.02;
@@ -113,7 +113,7 @@ class Trot {
     return false;
   }
 
-  /// What the feet have to do to the body.
+  /// Returns the wrench that the feet have to exert on the body.
   BodyWrench wanted_wrench(const Sensed& seen) const {
     const State& s = state_;
     const BodyGains& g = model_.gains;
@@ -156,8 +156,8 @@ class Trot {
     }
   }
 
-  /// Where a foot is to be that does not push, level frame: on its way to the next place, or, where the ground should
-  /// be and is not, straight down.
+  /// Returns the wanted motion of a foot that does not push, level frame: on its way to the next place, or straight
+  /// down when there is no ground where it should be.
   Motion way_of(const Sensed& seen, int i) const {
     const std::size_t at = std::size_t(i);
     const LegState& leg = state_.stride.leg[at];
@@ -174,7 +174,7 @@ class Trot {
     return Arc{leg.lifted_at, model_.lift, model_.gait.swing_time()}.at(state_.clock.of(model_.gait, i).progress, to,
                                                                         {ground.x, ground.y, 0});
   }
-  /// Spring and damper of each joint about that.
+  /// Returns efforts by a spring and a damper of each joint about this motion.
   Vector swing_effort(const Sensed& seen, int i) const {
     const std::size_t at = std::size_t(i);
     const Leg& leg = model_.leg[at];
@@ -201,11 +201,11 @@ class Trot {
   }
 
   static constexpr double pi = 3.14159265358979323846;
-  static constexpr double rest = 0.3;        // s: before it trots
-  static constexpr double push_speed = 0.3;  // m/s: it steps when it stands and is pushed
-  static constexpr double misplaced = 0.08;  // m: a foot from its place, before it steps
-  static constexpr double most_yaw = 0.4;    // rad: what it answers to
-  static constexpr double fallen = 1.2;      // rad: from there on its drives are off
+  static constexpr double rest = 0.3;        // s: time before it trots
+  static constexpr double push_speed = 0.3;  // m/s: a standing robot that is pushed steps from this speed on
+  static constexpr double misplaced = 0.08;  // m: distance of a foot from its place, above which the robot steps
+  static constexpr double most_yaw = 0.4;    // rad: greatest error that it corrects
+  static constexpr double fallen = 1.2;      // rad: from this tilt on its drives are off
   static constexpr double stretched = 0.05;  // 1: determinant of a leg that is nearly straight
 
   Model model_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Trots without forces, for levels at which the base goes where it is told (motion.point): joints are driven by
-// positions, so that feet that stand stay where they are on level ground while the base moves on. The gait, the legs
-// and the places of feet are those of `trot`, with the same tunables and arguments.
+// Trots without forces, for levels at which the base moves as commanded (motion.point). Joints are driven by positions,
+// so that standing feet stay where they are on level ground while the base moves on. Gait, legs and places of feet are
+// those of `trot`, with the same tunables and arguments.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -52,7 +52,7 @@ class TrotKinematic {
 
   struct State {
     GaitClock clock;
-    Command velocity;                          // of the base
+    Command velocity;                          // velocity of the base
     std::array<Vector, legs> foot, lifted_at;  // m, seen from the base, level
     std::array<double, legs> swings{};         // 1: in the air
   };
@@ -76,8 +76,8 @@ class TrotKinematic {
     approach(state_.velocity.turn, wanted.turn, model_.turn_acceleration * dt);
   }
 
-  /// A foot that stands goes back as the base goes on; one that swings goes to where Raibert's rule has it. One that
-  /// has come down, or was lifted, since the last step, has done so in between.
+  /// Moves a foot. A standing foot goes back as the base goes on; a swinging foot goes to the place of Raibert's rule.
+  /// A foot that came down or was lifted since the last step did so between the two steps.
   void move(int i, const Command& wanted, double dt) {
     const std::size_t at = std::size_t(i);
     Vector& foot = state_.foot[at];
@@ -95,7 +95,7 @@ class TrotKinematic {
     const Vector ground = -1.0 * (velocity + cross(Vector{0, 0, state_.velocity.turn}, foot));
     foot = Arc{state_.lifted_at[at], model_.lift, swing}.at(phase.progress, to, ground).position;
   }
-  /// Where a point of the ground is after the base has gone on for `dt` s along its arc.
+  /// Returns where a point of the ground is after the base has moved for `dt` s along its arc.
   Vector carried(const Vector& p, double dt) const {
     const Command& v = state_.velocity;
     const double angle = v.turn * dt, half_c = muro_cos(0.5 * angle), half_s = muro_sin(0.5 * angle);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Legs by positions under a base that goes as it is told: feet that stand stay where they are.
+// Legs by positions under a base that moves as commanded: standing feet stay where they are.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The numbers that a scenario may give to `trot`, with those of examples/models/quadruped.urdf as defaults.
+// Numbers that a scenario may give to `trot`. The defaults are those of examples/models/quadruped.urdf.
 #pragma once
 
 #include <cstddef>

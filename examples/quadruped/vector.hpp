@@ -25,7 +25,7 @@ inline Vector cross(const Vector& a, const Vector& b) {
 struct Rotation {
   Vector rows[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-  /// Of a unit quaternion x, y, z, w.
+  /// Returns the rotation of a unit quaternion x, y, z, w.
   static Rotation of(std::span<const double> q) {
     const double x = q[0], y = q[1], z = q[2], w = q[3];
     return {{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
@@ -33,7 +33,7 @@ struct Rotation {
              {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
   }
   Vector operator*(const Vector& v) const { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
-  /// The same of the inverse rotation.
+  /// Returns a vector turned by the inverse rotation.
   Vector back(const Vector& v) const { return v.x * rows[0] + v.y * rows[1] + v.z * rows[2]; }
 };
 
@@ -47,7 +47,7 @@ struct Angles {
   }
 };
 
-/// The rotation with its yaw taken away: from the frame of the body to a level one that has its heading.
+/// Returns the rotation without its yaw: from the frame of the body to a level frame with its heading.
 inline Rotation levelled(const Rotation& r, double yaw) {
   const double c = muro_cos(yaw), s = muro_sin(yaw);
   return {{c * r.rows[0] + s * r.rows[1], c * r.rows[1] - s * r.rows[0], r.rows[2]}};

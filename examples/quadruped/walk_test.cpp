@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The robots of the example go where they are told, on their feet alone, in every full dynamics.
+// The robots of the example follow commands, on their feet alone, in every full dynamics.
 #include <gtest/gtest.h>
 
 #include "quadruped_testing.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 std::string with(const std::string& motion) { return "robots.walker.motion.use=motion." + motion; }
 
-/// What holds for a robot that has trotted for so many seconds over the planks, which are 1 cm high.
+/// Checks a robot that has trotted for `seconds` over the planks, which are 1 cm high.
 void expect_a_trot(Walk& walk, double seconds, const Vec3& start) {
   const Vec3 way = walk.pose().position - start;
   EXPECT_NEAR(way.x(), 0.5 * seconds, 0.04 * seconds);
@@ -150,7 +150,7 @@ TEST(Trot, PairsAtTheSimplifiedLevelKeepUpWithFullDynamics) {
   EXPECT_NEAR(mate().position.x() - x, walk.pose().position.x() - x_full, 0.15 * 2);
 }
 
-/// A ramp up and one down, 3 m each, from 1 m on: boxes whose tops meet.
+/// Returns a ramp up and a ramp down, 3 m each, from 1 m on: boxes whose tops meet.
 std::string ramps(double slope) {
   const double c = std::cos(slope), s = std::sin(slope);
   const auto box = [&](const char* name, double x, double z, double pitch) {

@@ -20,7 +20,7 @@ void for_words(std::string_view text, Take take) {
   }
 }
 
-/// None where the word is not wholly a finite number.
+/// Returns the number; nothing when the word is not wholly a finite number.
 inline std::optional<double> number_of(std::string_view word) {
   double number = 0;
   const char* const end = word.data() + word.size();

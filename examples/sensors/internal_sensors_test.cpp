@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The humanoid with all internal sensors, as it stands.
+// The standing humanoid with all internal sensors.
 #include <gtest/gtest.h>
 
 #include <set>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where a camera in the head of a humanoid looks: from pixels to the ground and back. Frames: x forward, y left, z up.
-// The heading frame has its origin on the ground below the trunk, and turns with it about the upright axis alone.
+// The view of a camera in the head of a humanoid: from pixels to points on the ground and back. Frames: x forward, y
+// left, z up. The heading frame has its origin on the ground below the trunk, and turns with the trunk about the
+// vertical axis only.
 #pragma once
 
 #include <cmath>
@@ -26,22 +27,22 @@ struct Pixel {
   double u = 0, v = 0;  ///< columns and rows, from the upper left corner
 };
 
-/// Of a pinhole camera: px.
+/// Focal lengths and centre of a pinhole camera: px.
 struct Lens {
   double fx = 1, fy = 1, cx = 0, cy = 0;
 };
 
-/// Dimensions of a head: m, each in the frame of the part before.
+/// Dimensions of a head: m, each in the frame of the previous part.
 struct Head {
   Vector neck;    ///< axis of the pan joint, from the trunk's origin
-  Vector tilt;    ///< axis of the tilt joint, from there
-  Vector camera;  ///< the camera, from there
+  Vector tilt;    ///< axis of the tilt joint, from the pan joint
+  Vector camera;  ///< camera, from the tilt joint
 };
 
 class CameraView {
  public:
-  /// `trunk_height`: m, of the trunk's origin above the ground; `orientation`: of the trunk, x y z w; `pan`, `tilt`:
-  /// rad.
+  /// `trunk_height`: m, height of the trunk's origin above the ground; `orientation`: of the trunk, x y z w; `pan`,
+  /// `tilt`: rad.
   CameraView(const Lens& lens, const Head& head, double trunk_height, std::span<const double> orientation, double pan,
              double tilt)
       : lens_(lens) {
@@ -61,33 +62,32 @@ class CameraView {
     is_upright_ = up.z > 0.94;  // within 20 degrees
   }
 
-  /// What lies at `height` (m) above the ground and is seen at a pixel, in the heading frame; none above the horizon.
+  /// Point at `height` (m) above the ground that is seen at a pixel, in the heading frame; none above the horizon.
   std::optional<Vector> at_height(const Pixel& p, double height) const {
     const Vector ray = forward_ + ((lens_.cx - p.u) / lens_.fx) * left_ + ((lens_.cy - p.v) / lens_.fy) * up_;
-    constexpr double flat = 0.01;  // of the sine: farther away than a hundred times the height
+    constexpr double flat = 0.01;  // least sine of the slope: farther away than a hundred times the height
     if (ray.z > -flat * std::sqrt(dot(ray, ray))) return std::nullopt;
     return place_ + ((height - place_.z) / ray.z) * ray;
   }
-  /// Where a point of the heading frame is seen; none behind the camera.
+  /// Returns the pixel at which a point of the heading frame is seen; nothing behind the camera.
   std::optional<Pixel> pixel_of(const Vector& point) const {
     const Vector d = point + (-1) * place_;
     const double depth = dot(d, forward_);
     if (depth < 0.01) return std::nullopt;
     return Pixel{lens_.cx - lens_.fx * dot(d, left_) / depth, lens_.cy - lens_.fy * dot(d, up_) / depth};
   }
-  /// How far what stands upright goes on in the picture, seen at a pixel, for each metre of height and at a metre of
-  /// depth (px).
+  /// Returns how far an upright object that is seen at a pixel extends in the picture (px), for each metre of height,
+  /// at a depth of one metre.
   Pixel upright_at(const Pixel& p) const {
     return {-lens_.fx * left_.z - (p.u - lens_.cx) * forward_.z, -lens_.fy * up_.z - (p.v - lens_.cy) * forward_.z};
   }
-  /// The row (px) in which what is as high as the camera is seen, in a column.
+  /// Returns the row (px) of a column in which points as high as the camera are seen.
   double horizon(double u) const {
     return lens_.cy + lens_.fy * (forward_.z + ((lens_.cx - u) / lens_.fx) * left_.z) / up_.z;
   }
-  /// Whether the trunk stands: where one lies or falls, the camera is not where this class has it.
+  /// Whether the trunk is upright. In a fall or on the ground, the camera is not where this class assumes it.
   bool is_upright() const { return is_upright_; }
-  /// m: of the camera above the ground.
-  /// m: along the axis of the camera.
+  /// Returns the depth of a point (m) along the axis of the camera.
   double depth_of(const Vector& point) const { return dot(point + (-1) * place_, forward_); }
   const Lens& lens() const { return lens_; }
 

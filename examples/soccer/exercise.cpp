@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Open loop, by angles of joints that depend on time alone: a humanoid squats, or steps in place, or shifts its weight
-// and kicks once. No sensor is read; soles and servos keep it upright.
+// Open loop: a humanoid squats, or steps in place, or shifts its weight and kicks once. The angles of its joints depend
+// on time alone. No sensor is read; soles and servos keep it upright.
 //
 // Thighs are bent forward by an angle and knees by twice as much, so that soles and trunk stay level. Hips and ankles
-// roll by opposite angles to shift the trunk sideways, and the leg without weight is lifted by a further bend.
+// roll by opposite angles to shift the trunk sideways. The leg without weight is lifted by a further bend.
 #include <cmath>
 
 #include "muro_controller.hpp"
@@ -21,7 +21,7 @@ enum Output { targets };
 enum Tunable { squat, sway, lift, period, phase, kick };
 enum Joint { hip_roll, hip_pitch, knee, ankle_pitch, ankle_roll, shoulder_pitch, shoulder_roll, elbow, joints_of_side };
 
-/// 0 before `start`, 1 after `end`, without a corner in between.
+/// Returns 0 before `start`, 1 after `end`, and a smooth rise in between.
 double rise(double t, double start, double end) {
   if (t <= start) return 0;
   if (t >= end) return 1;
@@ -55,7 +55,7 @@ class Exercise {
     const double raised = kicks ? rise(t, -0.5, -0.2) - rise(t, 0.6, 0.9) : 0;
     const double swung = kicks ? rise(t, -0.05, 0.08) - rise(t, 0.25, 0.6) : 0;
     const double back = kicks ? rise(t, -0.4, -0.1) - rise(t, -0.05, 0.08) : 0;
-    // above 0 the weight is on the right leg
+    // above 0: the weight is on the right leg
     const double lean = begun * now.tunable(sway) * muro_sin(angle) + kick_lean * shifted;
     const double bend = crouch - begun * now.tunable(squat) * muro_sin(angle);
     const auto q_of_all = now.output(targets);

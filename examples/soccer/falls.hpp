@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// When a player has fallen, by how its trunk is tilted. Who gets up from its back sits upright on the way, and then
-// bends forward over its feet: that is no second fall. So a fall ends when the trunk has been upright for a while.
+// Detects falls of a player by the tilt of its trunk. A player that gets up from its back sits upright on the way, and
+// then bends forward over its feet: this is no second fall. So a fall ends when the trunk has been upright for a while.
 #pragma once
 
 #include <cstdint>
 
 namespace soccer {
 
-/// Of one player.
+/// Watches one player.
 class FallWatch {
  public:
-  /// `up`: of the trunk's axis z along "up", 1: upright; `h`: s, since the last call. True once for each fall.
+  /// `up`: the trunk's axis z along "up", 1: upright; `h`: s since the last call. Returns true once for each fall.
   bool has_fallen(double up, double h) {
     lying_ = up > lies ? 0 : lying_ + h;
     upright_ = up > stands ? upright_ + h : 0;
@@ -21,13 +21,13 @@ class FallWatch {
   }
 
  private:
-  static constexpr double lies = 0.5;           // of `up`: below, the player lies
-  static constexpr double time_to_lie = 0.5;    // s: so long, and it has fallen
-  static constexpr double stands = 0.95;        // of `up`: above, the trunk is upright, as in a walk
-  static constexpr double time_to_stand = 1.0;  // s: so long, and it stands; who gets up sits upright for 0.6 s
+  static constexpr double lies = 0.5;           // `up` below this: the player lies
+  static constexpr double time_to_lie = 0.5;    // s: a player that lies so long has fallen
+  static constexpr double stands = 0.95;        // `up` above this: the trunk is upright, as in a walk
+  static constexpr double time_to_stand = 1.0;  // s: upright so long, it stands; it sits upright for 0.6 s on the way
 
   double lying_ = 0, upright_ = 0;  // s
-  std::int64_t is_down_ = 0;        // its fall has been counted, and it has not stood since
+  std::int64_t is_down_ = 0;        // 1: its fall has been counted, and it has not stood since
 };
 
 }  // namespace soccer

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A list with room for so many, without allocation.
+// A list of limited length, without allocation.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace soccer {
 
-/// What was found, at most `most`.
+/// Objects that were found, at most `most`.
 template <class T, std::size_t most>
 class Finds {
  public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a head looks: at the ball while it is in sight, now and then up to what stands on the field; where the ball is
-// out of sight, around.
+// Direction of the head: to the ball while it is in sight, with glances up to other objects on the field; around while
+// the ball is out of sight.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ struct Neck {
 
 class Gaze {
  public:
-  /// The ball is in sight at a pixel, `distance` (m) away. `seconds`: since the last picture.
+  /// Returns the angles while the ball is seen at a pixel, `distance` (m) away. `seconds`: since the last picture.
   Neck follow(const Neck& neck, const Pixel& ball, const Lens& lens, double distance, double seconds) {
-    constexpr double gain = 0.7;  // of the way to the ball from picture to picture
+    constexpr double gain = 0.7;  // share of the way to the ball from picture to picture
     at_ball_ = {neck.pan + gain * muro_atan2(lens.cx - ball.u, lens.fx),
                 neck.tilt + gain * muro_atan2(ball.v - lens.cy, lens.fy)};
     waited_ = 0;
@@ -27,7 +27,7 @@ class Gaze {
     const bool is_calm = distance > nearest && distance < farthest;
     return is_calm && rested_ > between_glances ? begin_glance() : at_ball_;
   }
-  /// It is not.
+  /// Returns the angles while the ball is out of sight.
   Neck search(double seconds) {
     if (is_glancing()) return glance(seconds);
     waited_ += seconds;
@@ -38,15 +38,15 @@ class Gaze {
 
  private:
   static constexpr double pi = 3.14159265358979323846;
-  static constexpr double patience = 0.9;               ///< s: so long it waits for the ball where it was
+  static constexpr double patience = 0.9;               ///< s: time to wait for the ball where it was
   static constexpr double sweep = 1.2;                  ///< rad: to each side, when it looks around
   static constexpr double sweep_period = 3;             ///< s
-  static constexpr double tilts[] = {0.9, 0.25, 0.6};   ///< rad, of the sweeps, near and far
-  static constexpr double nearest = 0.7, farthest = 4;  ///< m: of a ball that may be left alone for a glance
+  static constexpr double tilts[] = {0.9, 0.25, 0.6};   ///< rad, tilts of the sweeps, near and far
+  static constexpr double nearest = 0.7, farthest = 4;  ///< m: distances of the ball that permit a glance
   static constexpr double between_glances = 4;          ///< s
   static constexpr double glance_length = 0.7;          ///< s
   static constexpr double glance_tilt = 0.15;           ///< rad
-  static constexpr double aside = 0.6;  ///< rad: to the left of the trunk, to the right, ahead, in turns
+  static constexpr double aside = 0.6;  ///< rad: pan of glances, to the left, to the right and ahead in turns
 
   bool is_glancing() const { return left_ > 0; }
   Neck begin_glance() {
@@ -60,11 +60,11 @@ class Gaze {
     return {aside * sides[glances_ % 3], glance_tilt};
   }
 
-  Neck at_ball_;         ///< where the ball was seen last
-  double waited_ = 1e3;  ///< s: for the ball
+  Neck at_ball_;         ///< angles at which the ball was seen last
+  double waited_ = 1e3;  ///< s: time since the ball was lost
   double sweep_ = 0;     ///< periods
   double rested_ = 0;    ///< s: since the last glance
-  double left_ = 0;      ///< s: of a glance
+  double left_ = 0;      ///< s: remaining time of a glance
   std::int64_t glances_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A picture of the field by the kinds of its colours, with sums over rectangles in constant time for those that fill
-// areas: grass, white and dark.
+// A picture of the field as kinds of colours. For the kinds that fill areas (grass, white and dark) it gives sums over
+// rectangles in constant time.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace soccer {
 
-/// What a pixel may show.
+/// Kinds of colours.
 enum Color : std::uint8_t { green, white, dark, blue, red, sky, other };
 
 inline Color color_of(int r, int g, int b) {
@@ -28,7 +28,7 @@ inline Color color_of(int r, int g, int b) {
 
 class Image {
  public:
-  /// `rgb`: red, green, blue, rows from the top.
+  /// `rgb`: red, green, blue; rows from the top.
   void set(std::span<const std::uint8_t> rgb, int width, int height) {
     width_ = width, height_ = height;
     colors_.resize(std::size_t(width) * std::size_t(height));
@@ -47,20 +47,20 @@ class Image {
       }
     }
   }
-  /// None outside of the picture.
+  /// Returns the colour at a point; nothing outside the picture.
   std::optional<Color> at(double u, double v) const {
     const int column = int(std::floor(u)), row = int(std::floor(v));
     if (column < 0 || row < 0 || column >= width_ || row >= height_) return std::nullopt;
     return colors_[std::size_t(row) * std::size_t(width_) + std::size_t(column)];
   }
-  /// Of a pixel in the picture.
+  /// Returns the colour of a pixel in the picture.
   Color color(int column, int row) const { return colors_[index(column, row)]; }
-  /// The least of red, green and blue, 0 to 255, of a pixel in the picture: how white it is, where the rest is grass.
+  /// Returns the least of red, green and blue, 0 to 255, of a pixel in the picture: its whiteness among grass.
   int least(int column, int row) const { return least_[index(column, row)]; }
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Pixels of green, white or dark in a rectangle, as far as it lies in the picture.
+  /// Number of pixels of green, white or dark in the part of a rectangle that is in the picture.
   struct Count {
     int counted = 0, all = 0;
     double part() const { return all > 0 ? double(counted) / all : 0; }
@@ -74,7 +74,7 @@ class Image {
   }
 
  private:
-  static constexpr int summed = 3;  ///< colours, of which there are sums
+  static constexpr int summed = 3;  ///< number of colours with sums
 
   static int nearest(double x) { return int(std::floor(x + 0.5)); }
   std::size_t index(int u, int v) const { return std::size_t(v) * std::size_t(width_) + std::size_t(u); }
@@ -83,7 +83,7 @@ class Image {
   int width_ = 0, height_ = 0;
   std::vector<Color> colors_;
   std::vector<std::uint8_t> least_;
-  std::array<std::vector<std::int32_t>, summed> sums_;  ///< of all pixels above and to the left
+  std::array<std::vector<std::int32_t>, summed> sums_;  ///< sums over all pixels above and to the left
 };
 
 }  // namespace soccer

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What there is on a field to know one's place by: posts of goals and lines. The origin is the centre mark, x points to
-// a goal, y to the left of it. Defaults: KidSize (RoboCup Humanoid League, rules of 2025), as field.sdf shows it.
+// Landmarks of a field by which a player finds its place: posts of goals and lines. The origin is the centre mark, x
+// points to a goal, y to the left of it. Defaults: KidSize (RoboCup Humanoid League, rules of 2025), as in field.sdf.
 #pragma once
 
 #include <algorithm>
@@ -13,19 +13,19 @@ namespace soccer {
 struct Landmarks {
   double length = 8.95, width = 5.95;  ///< m: between the middles of goal lines, and of touch lines
   double goal_width = 2.7;             ///< m: between the axes of the posts of a goal
-  double goal_depth = 0.6;             ///< m: of its frame on the ground, behind the goal line
+  double goal_depth = 0.6;             ///< m: depth of its frame on the ground, behind the goal line
   double goal_area_length = 0.95, goal_area_width = 2.95;
   double penalty_area_length = 1.95, penalty_area_width = 4.95;
   double penalty_mark = 1.475;  ///< m: from the middle of the goal line
   double circle = 0.75;         ///< m: radius
 
-  /// m: the axes of all four, on the ground.
+  /// Returns the axes of all four posts on the ground (m).
   std::array<Point, 4> posts() const {
     const double x = 0.5 * length, y = 0.5 * goal_width;
     return {Point{x, y}, Point{x, -y}, Point{-x, y}, Point{-x, -y}};
   }
-  /// m: the point of the middles of all lines that is nearest to `p`, of marks, and of the goals' frames on the ground.
-  /// They are symmetric about both axes.
+  /// Returns the point (m) nearest to `p` on the middles of all lines, on marks, and on the goals' frames on the
+  /// ground. All of these are symmetric about both axes.
   Point nearest_on_lines(const Point& p) const {
     const Point corner{std::abs(p.x), std::abs(p.y)};  // in the quarter where x and y are positive
     const double goal_line = 0.5 * length, touch_line = 0.5 * width;
@@ -56,7 +56,7 @@ struct Landmarks {
       const double d = (p - to).norm();
       if (d < distance) distance = d, best = p;
     }
-    /// Along x or y, from less to more.
+    /// Tries a segment along x or y, from the smaller to the greater coordinate.
     void try_segment(const Point& a, const Point& b) {
       try_point({std::clamp(to.x, a.x, b.x), std::clamp(to.y, a.y, b.y)});
     }

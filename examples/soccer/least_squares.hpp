@@ -16,12 +16,12 @@ struct Symmetric3 {
   Vector3 operator*(const Vector3& v) const {
     return {xx * v[0] + xy * v[1] + xz * v[2], xy * v[0] + yy * v[1] + yz * v[2], xz * v[0] + yz * v[1] + zz * v[2]};
   }
-  /// v' M v.
+  /// Returns v' M v.
   double square(const Vector3& v) const {
     const Vector3 w = *this * v;
     return v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
   }
-  /// Of a positive definite one.
+  /// Returns the inverse of a positive definite matrix.
   Symmetric3 inverse() const {
     const Symmetric3 c{yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy,
                        xz * yz - xy * zz, xy * yz - xz * yy, xy * xz - xx * yz};
@@ -31,10 +31,10 @@ struct Symmetric3 {
   }
 };
 
-/// The unknowns d that make the sum of weight (residual - gradient d)^2 least.
+/// Finds the unknowns d that minimise the sum of weight (residual - gradient d)^2.
 class LeastSquares {
  public:
-  /// `information`: of what is known before: the sum begins with (difference - d)' information (difference - d).
+  /// `information`, `difference`: prior knowledge; the sum begins with (difference - d)' information (difference - d).
   LeastSquares(const Symmetric3& information, const Vector3& difference)
       : matrix_(information), vector_(information * difference) {}
 

@@ -16,8 +16,8 @@ class LineFinder {
   static constexpr std::size_t most = 16;
   using Points = Finds<Vector, most>;
 
-  /// Points of the middles of lines on the ground in the heading frame (m). `ball`, `players`: where they are seen;
-  /// they are no lines.
+  /// Returns points on the middles of lines on the ground in the heading frame (m). `ball`, `players`: objects that are
+  /// seen and are no lines.
   Points find(const Image& image, const CameraView& view, const std::optional<Vector>& ball,
               std::span<const SeenPlayer> players) const {
     Candidates all;
@@ -44,8 +44,8 @@ class LineFinder {
   using Candidates = Finds<Vector, 96>;
   static constexpr double farthest = 3.5;  ///< m
   static constexpr double nearest = 0.3;   ///< m
-  static constexpr int contrast = 28;      ///< of 255, of a ridge above the grass on both sides
-  static constexpr double widest = 0.25;   ///< m, on the ground, along the scan
+  static constexpr int contrast = 28;      ///< least brightness of a ridge above the grass on both sides, of 255
+  static constexpr double widest = 0.25;   ///< m, greatest width on the ground, along the scan
 
   struct Scan {
     Pixel begin;  ///< the middle of its first pixel
@@ -88,7 +88,7 @@ class LineFinder {
       if (dot(across, across) < widest * widest) all.add(*point);
     }
   }
-  /// Whether a point is seen where a player is.
+  /// Returns whether a point is seen where a player is.
   static bool hides(const SeenPlayer& player, const Vector& point, const CameraView& view) {
     constexpr double half_width = 0.2, height = 0.5;  // m
     const auto feet = view.pixel_of(player.feet), p = view.pixel_of(point);

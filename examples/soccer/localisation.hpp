@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Where a player is on the field: dead reckoning, corrected by the posts of goals and the lines that it sees. An
+// Place of a player on the field: dead reckoning, corrected by the posts of goals and the lines that it sees. An
 // iterated extended Kalman filter of x, y and heading, in information form: each sight is a least-squares problem about
-// what was known before, and lines are fitted as by Lauer, Lange and Riedmiller, "Calculating the perfect match: an
-// efficient and accurate approach for robot self-localization" (RoboCup 2005), with weights that let go of what fits no
-// line.
+// the prior estimate. Lines are fitted as by Lauer, Lange and Riedmiller, "Calculating the perfect match: an efficient
+// and accurate approach for robot self-localization" (RoboCup 2005), with weights that drop points that fit no line.
 //
-// A field looks the same from both ends. The filter follows one place from the start on: a sight that would have it far
-// away from there changes nothing; one that fits two places alike neither (posts), or it widens what is thought
-// possible (lines).
+// A field looks the same from both ends. The filter follows one place from the start on. A sight that would move the
+// place far away changes nothing. A sight that fits two places equally well changes nothing (posts), or widens the
+// covariance (lines).
 #pragma once
 
 #include <algorithm>
@@ -28,7 +27,7 @@ class Localisation {
  public:
   explicit Localisation(const Landmarks& landmarks = {}) : landmarks_(landmarks) {}
 
-  /// It is at `place`, known to `sigma` (m) along x and y, and to `sigma_yaw` (rad).
+  /// Begins at `place`, known to `sigma` (m) along x and y, and to `sigma_yaw` (rad).
   void start(const Place& place, double sigma = 0.1, double sigma_yaw = 0.05) {
     place_ = place;
     covariance_ = {};
@@ -36,13 +35,13 @@ class Localisation {
     rejected_posts_ = rejected_lines_ = 0;
   }
 
-  /// It has gone `own_way` (m, forward and left, in its own frame before) and turned (rad), by its own reckoning, in
-  /// `seconds`.
+  /// Predicts by dead reckoning: in `seconds` the player has gone `own_way` (m, forward and left, in its previous
+  /// frame) and `turned` (rad).
   void move(const Point& own_way, double turned, double seconds = 0.2) {
     const Point before = place_.at;
     place_.at = place_.to_world(own_way);
     place_.yaw = wrapped(place_.yaw + turned);
-    const double dx = -(place_.at.y - before.y), dy = place_.at.x - before.x;  // by the heading
+    const double dx = -(place_.at.y - before.y), dy = place_.at.x - before.x;  // derivatives by the heading
     Symmetric3& c = covariance_;
     c.xx += 2 * dx * c.xz + dx * dx * c.zz, c.yy += 2 * dy * c.yz + dy * dy * c.zz;
     c.xy += dx * c.yz + dy * c.xz + dx * dy * c.zz;
@@ -52,19 +51,19 @@ class Localisation {
     c.zz += drifts * seconds + twists * std::abs(turned);
     limit();
   }
-  /// It fell, and got up somewhere near.
+  /// Widens the covariance after a fall by `distance` (m) and `turn` (rad): the player got up somewhere near.
   void fell(double distance = 0.5, double turn = 0.5) {
     covariance_.xx += distance * distance, covariance_.yy += distance * distance, covariance_.zz += turn * turn;
     limit();
   }
 
-  /// The feet of posts of goals in its own frame (m). Whether they fit the field, and have been used.
+  /// Takes the feet of goal posts in its own frame (m). Returns whether they fit the field and were used.
   bool see_posts(std::span<const Point> posts) {
     if (posts.empty()) return false;
     return judge(posts.size() == 1 ? see_post(posts[0]) : see_pair(posts[0], posts[1]), rejected_posts_, 3, 0.4, 0.4);
   }
-  /// Points of the middles of lines in its own frame (m). Neither these nor posts are to be told while it falls, lies
-  /// or gets up: its camera is not where look.cpp has it then.
+  /// Takes points on the middles of lines in its own frame (m). Give it neither lines nor posts while the player falls,
+  /// lies or gets up: its camera is then not where look.cpp assumes it.
   bool see_lines(std::span<const Point> points) {
     if (points.size() < least_points) return false;
     return judge(fit_lines(points), rejected_lines_, 5, 0.2, 0.2);
@@ -81,34 +80,34 @@ class Localisation {
   static constexpr double twists = 0.01;                   ///< rad^2/rad
   static constexpr double largest = 1, largest_yaw = 0.8;  ///< m, rad: standard deviations
   static constexpr std::size_t least_points = 6;
-  static constexpr double least_fitting = 0.7;  ///< of the points of a sight
-  static constexpr double distinct = 6;         ///< so much better than the next one is what is believed (chi squared)
+  static constexpr double least_fitting = 0.7;  ///< least share of the points of a sight that lie on lines
+  static constexpr double distinct = 6;         ///< chi squared: margin to the second-best match that a match needs
 
-  /// The errors of what a camera at a walking player's height finds (look.cpp), by distance.
+  /// Errors (m) of points found by a camera at a walking player's height (look.cpp), by distance.
   static double range_sigma(double d) { return 0.03 + 0.02 * d * d; }
   static double side_sigma(double d) { return 0.02 + 0.02 * d; }
 
-  /// Of a place, and how little it fits what was known and what is seen (chi squared).
+  /// A candidate place. `cost`: how little it fits the prior estimate and the sight (chi squared).
   struct Fit {
     Place place;
     Symmetric3 covariance;
     double cost = 1e9;
-    double fitting = 0;  ///< points that lie on lines
+    double fitting = 0;  ///< number of points that lie on lines
   };
   enum Sight { used, unclear, misfit };
   struct Match {
     Point seen, landmark;  ///< m: in its own frame; on the field
   };
 
-  /// `rejected`: sights of this kind in a row that do not fit. After `patience` of them it may be elsewhere, up to
-  /// `distance` (m) and `turn` (rad).
+  /// `rejected`: number of sights of this kind in a row that do not fit. After `patience` of them the player may be
+  /// elsewhere, up to `distance` (m) and `turn` (rad) away.
   bool judge(Sight sight, std::int64_t& rejected, std::int64_t patience, double distance, double turn) {
     if (sight == used) rejected = 0, keep_doubts();
     if (sight == misfit) ++rejected;
     if (rejected >= patience) rejected = 0, fell(distance, turn);
     return sight == used;
   }
-  /// What a camera has wrong is the same in many pictures: the mean of many is no better than this.
+  /// Keeps a least covariance: errors of a camera repeat in many pictures, so their mean is not exact.
   void keep_doubts() {
     constexpr double least = 0.03, least_yaw = 0.015;  // m, rad
     covariance_.xx = std::max(covariance_.xx, least * least), covariance_.yy = std::max(covariance_.yy, least * least);
@@ -125,7 +124,7 @@ class Localisation {
     c.xy *= sx * sy, c.xz *= sx * sz, c.yz *= sy * sz;
   }
 
-  /// From where it was believed to be to another place.
+  /// Returns the way from the prior place to another place.
   Vector3 difference(const Place& to) const {
     return {to.at.x - place_.at.x, to.at.y - place_.at.y, wrapped(to.yaw - place_.yaw)};
   }
@@ -137,7 +136,7 @@ class Localisation {
   Sight see_post(const Point& seen) {
     Fit best, second;
     for (const Point& post : landmarks_.posts()) rank(fit_posts(std::array{Match{seen, post}}), best, second);
-    constexpr double gate = 11;  // chi squared of two is above in 0.4 % of all sights
+    constexpr double gate = 11;  // chi squared of two degrees of freedom is above in 0.4 % of all sights
     return believe(best, second, gate);
   }
   Sight see_pair(const Point& left, const Point& right) {
@@ -146,7 +145,7 @@ class Localisation {
     for (const Point& a : posts)
       for (const Point& b : posts)
         if ((a - b).norm() > 0) rank(fit_posts(std::array{Match{left, a}, Match{right, b}}), best, second);
-    constexpr double gate = 15.5;  // of four
+    constexpr double gate = 15.5;  // four degrees of freedom
     const Sight both = believe(best, second, gate);
     if (both == used) return used;
     return see_post(left) == used || see_post(right) == used ? used : both;
@@ -165,7 +164,7 @@ class Localisation {
     return used;
   }
 
-  /// The place that fits best what was known and posts that are those of the field.
+  /// Returns the place that best fits the prior estimate and the posts matched with those of the field.
   Fit fit_posts(std::span<const Match> matches) const {
     constexpr int iterations = 4;
     const Symmetric3 known = covariance_.inverse();
@@ -182,7 +181,7 @@ class Localisation {
     }
     return fit;
   }
-  /// Along the direction in which it is seen, and across. Returns chi squared.
+  /// Adds errors along the direction in which the post is seen, and across it. Returns chi squared.
   static double add_post(const Match& match, const Place& place, LeastSquares& sum) {
     const Point expected = place.to_own(match.landmark), off = match.seen - expected;
     const double distance = match.seen.norm(), c = muro_cos(place.yaw), s = muro_sin(place.yaw);
@@ -197,7 +196,7 @@ class Localisation {
     return cost;
   }
 
-  /// Begins at several places where little is known; those in which it ends make up one distribution.
+  /// Fits lines from several places when little is known; the resulting places make up one distribution.
   Sight fit_lines(std::span<const Point> points) {
     const bool is_sure = sigma() < 0.15 && sigma_yaw() < 0.12;  // m, rad: lines are not mistaken for each other
     const double reach = is_sure ? 0 : 1.3;
@@ -223,7 +222,7 @@ class Localisation {
   static bool are_alike(const Fit& a, const Fit& b) {
     return (a.place.at - b.place.at).norm() < 0.1 && std::abs(wrapped(a.place.yaw - b.place.yaw)) < 0.1;
   }
-  /// What is far from a line counts at first, and ever less.
+  /// Fits lines from one place. Points far from a line count at first, and then less and less.
   Fit fit_lines_from(const Place& from, std::span<const Point> points) const {
     constexpr double widths[] = {8, 8, 4, 4, 2, 2, 1, 1, 1};
     const Symmetric3 known = covariance_.inverse();
@@ -240,15 +239,15 @@ class Localisation {
     }
     return fit;
   }
-  /// From the nearest line, across it, by Geman and McClure's error: what is farther away than `width` times the errors
-  /// of points hardly counts. Points of a picture err together: each counts for a part.
+  /// Adds the distance from the nearest line, across it, by the error of Geman and McClure: a point farther away than
+  /// `width` times the errors of points hardly counts. Errors of one picture are correlated: each point counts in part.
   void add_line(const Point& seen, double width, Fit& fit, LeastSquares& sum) const {
-    constexpr double part = 0.3, painted = 0.03;  // m: half a line, and more
+    constexpr double part = 0.3, painted = 0.03;  // m: half the width of a line, and more
     const Point at = fit.place.to_world(seen), off = landmarks_.nearest_on_lines(at) - at;
     const double distance = seen.norm(), e = off.norm();
     if (distance < 0.01) return;
     const Point arm = at - fit.place.at, across = e > 1e-6 ? (1 / e) * off : Point{};
-    const double cosine = (across.x * arm.x + across.y * arm.y) / distance;  // to the direction in which it is seen
+    const double cosine = (across.x * arm.x + across.y * arm.y) / distance;  // to the direction of sight
     const double range = cosine * range_sigma(distance);
     const double side = std::sqrt(std::max(0.0, 1 - cosine * cosine)) * side_sigma(distance);
     const double variance = range * range + side * side;
@@ -258,7 +257,7 @@ class Localisation {
     fit.cost += part * scale / variance * x / (1 + x);
     fit.fitting += x < 1.5 ? 1 : 0;
   }
-  /// Mean and covariance of several distributions, each as likely as its cost says.
+  /// Sets mean and covariance of several distributions, each weighted by the likelihood of its cost.
   void merge(std::span<const Fit> fits, double least) {
     double all = 0;
     Vector3 mean{};

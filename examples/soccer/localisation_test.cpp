@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The place of a walker whose reckoning is wrong by known amounts, and which sees posts and lines with known errors.
+// Place of a walker with known errors of its reckoning, which sees posts and lines with known errors.
 #include "localisation.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 const Landmarks field;
 
-/// What is seen of a point: nearer or farther, and aside, as pictures are read.
+/// Sights of a point with the errors of pictures: along the line of sight, and across it.
 class Eye {
  public:
   explicit Eye(unsigned seed) : random_(seed) {}
@@ -24,7 +24,7 @@ class Eye {
     const Point ray = (1 / d) * own, across{-ray.y, ray.x};
     return own + noise(0.02 + 0.01 * d * d) * ray + noise(0.01 * d) * across;
   }
-  /// Posts within half an angle of view and `farthest` (m), the left one first.
+  /// Returns posts within half an angle of view and `farthest` (m), the left one first.
   std::vector<Point> posts(const Place& me, double pan, double farthest = 6.5) {
     std::vector<Point> all;
     for (const Point& post : field.posts()) {
@@ -35,7 +35,7 @@ class Eye {
     for (Point& p : all) p = seen(p);
     return all;
   }
-  /// Points of lines in an angle of view, up to `farthest` (m) away.
+  /// Returns points of lines in an angle of view, up to `farthest` (m) away.
   std::vector<Point> lines(const Place& me, double pan, double farthest = 3) {
     std::vector<Point> all;
     for (int i = 0; all.size() < 16 && i < 2000; ++i) {
@@ -82,7 +82,7 @@ Errors walk(const std::function<void(double, const Place&, Localisation&)>& look
   }
   return worst;
 }
-/// rad: of a head that follows a ball ahead, and glances up each 4.6 s.
+/// Returns the pan (rad) of a head that follows a ball ahead, and glances up every 4.6 s.
 double pan(double time) {
   const int glance = int(time / 4.6) % 3;
   return std::fmod(time, 4.6) > 0.4 ? 0 : 0.6 * (glance == 2 ? -1 : glance);
@@ -173,7 +173,7 @@ TEST(Localisation, DoesNotTakeOneEndOfTheFieldForTheOther) {
   l.see_lines(eye.lines(mirrored, 0));
   EXPECT_LT(errors(l, truth).yaw, 0.5);
   l.start(truth, 1, 0.8);
-  const Point post = truth.to_own(field.posts()[2]);  // that behind it, said to be ahead
+  const Point post = truth.to_own(field.posts()[2]);  // the post behind it, reported as ahead
   l.see_posts(std::array{Point{-post.x, post.y}});
   EXPECT_LT(errors(l, truth).yaw, 0.8);
 }

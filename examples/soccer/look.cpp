@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The eyes of a humanoid: finds the ball, the posts of goals, lines and other players in the pictures of its camera
-// alone, tells where they are, and turns the head.
+// alone, reports where they are, and turns the head.
 #include <cstdint>
 
 #include "ball_finder.hpp"
@@ -96,7 +96,7 @@ class Look {
  private:
   struct Memory {
     Gaze gaze;
-    double x = 0, y = 0;  ///< m: where the ball was last seen, in the heading frame of then
+    double x = 0, y = 0;  ///< m: where the ball was last seen, in the heading frame of that time
     double age = 1e3;     ///< s: since then
   };
 
@@ -117,7 +117,7 @@ class Look {
     const auto told = now.output(ball);
     told[0] = found ? 1 : 0, told[1] = memory_.x, told[2] = memory_.y, told[3] = memory_.age;
   }
-  /// How many there are, and their places; zeros behind.
+  /// Writes the number of points and their places; zeros after them.
   static void tell(std::span<const Vector> points, std::span<double> told) {
     std::fill(told.begin(), told.end(), 0.0);
     told[0] = double(points.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Humanoids look at goals, lines and each other by their cameras; where all of these are is known.
+// Humanoids look at goals, lines and each other by their cameras; the true places of all of these are known.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,14 +17,14 @@ struct Stand {
   double x = 0, y = 0, yaw = 0;  ///< m, rad
 };
 
-/// The field with robots as a scenario has them: in two spaces.
+/// Returns the field with robots, given as text of a scenario with an indentation of two spaces.
 std::string field_with(const std::string& robots) {
   return R"(
 world: {file: SOCCER/field.sdf}
 robots:
 )" + robots;
 }
-/// Players with cameras that stand as the walk does.
+/// Returns players with cameras that stand as in the walk.
 std::string watchers(const std::string& name, const std::vector<Stand>& places, double pan, double tilt,
                      bool is_red = false) {
   std::string list;
@@ -71,7 +71,7 @@ class Looks {
   std::vector<double> posts(const std::string& robot) { return told(robot, "goal.seen", "1, m, m"); }
   std::vector<double> players(const std::string& robot) { return told(robot, "players.seen", "1, m, m, 1"); }
   std::vector<double> lines(const std::string& robot) { return told(robot, "lines.seen", "1, m, m"); }
-  /// A point of the field in the heading frame of a robot.
+  /// Returns a point of the field in the heading frame of a robot.
   Vec3 own(const std::string& robot, double x, double y) {
     const Pose& p = simulation().world().value(simulation().world().find_robot(robot)->base(), keys::pose);
     const Vec3 ahead = p.orientation * Vec3::UnitX();
@@ -95,7 +95,7 @@ class Looks {
 };
 
 std::string nth(const std::string& name, std::size_t i) { return name + "_" + std::to_string(i); }
-/// m: from what was told, `stride` numbers each, to the nearest of them.
+/// Returns the distance (m) from `to` to the nearest of the reported points, `stride` numbers each.
 double nearest(const std::vector<double>& told, std::size_t stride, const Vec3& to) {
   double least = 1e3;
   for (std::size_t i = 0; i < std::size_t(told[0]); ++i)
@@ -193,7 +193,7 @@ TEST(Look, GlancesUpFromABallInSightAndFindsItAgain) {
   EXPECT_GE(posts, 2) << "pictures";
 }
 
-/// What stands at random places of the field is looked at, by the distance of what is seen.
+/// Robots look at objects at random places of the field; errors are judged by the distance of the objects.
 TEST(SlowLook, ErrorsGrowWithTheDistanceAndHardlyAnythingIsFalse) {
   std::mt19937 random(5);
   const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
@@ -240,7 +240,7 @@ TEST(SlowLook, ErrorsGrowWithTheDistanceAndHardlyAnythingIsFalse) {
   EXPECT_LE(false_players, 0.1 * players);
 }
 
-/// One that walks by forces towards a goal, with its head on a ball that lies near to a post.
+/// A robot that walks by forces towards a goal, with its head on a ball near a post.
 TEST(Look, SeesPostsWhileItWalks) {
   const std::vector<std::string> alone = {"robots.red=off",
                                           "robots.blue_keeper=off",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A humanoid among others looks for the ball by its camera; where it lies is known.
+// A humanoid among others looks for the ball by its camera; the true place of the ball is known.
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"
@@ -37,7 +37,7 @@ robots:
   ball: {shape: {sphere: 0.07}, mass: 0.205, color: [1, 1, 1], texture: SOCCER/ball.png, at: {BALL}, motion: {use: motion.point}}
 )";
 
-/// What the player tells of the ball: whether it sees it, x, y (m), and how long ago that was (s).
+/// Returns the player's report on the ball: whether it sees it, x, y (m), and the age of this sight (s).
 std::vector<double> seen_after(double seconds, const std::string& ball) {
   const test::ScratchFolder folder;
   std::string text = scene;

@@ -47,8 +47,8 @@ std::uint64_t hash_of(const std::vector<std::string>& overrides, unsigned thread
 
 TEST(Match, ThreadsDoNotMatter) { EXPECT_EQ(hash_of(two_cameras, 1, 4), hash_of(two_cameras, 3, 4)); }
 
-/// A sphere that is pushed at v slides, slowed down by friction m and spun up by it against the resistance to rolling,
-/// c = `rolling_resistance` / radius, until it rolls: g t (7/2 m - 5/2 c) = v. From then on a = 5/7 c g.
+/// A sphere that is pushed at v slides. Friction m slows it down and spins it up against the resistance to rolling, c =
+/// `rolling_resistance` / radius, until it rolls: g t (7/2 m - 5/2 c) = v. From then on a = 5/7 c g.
 TEST(Match, TheBallRollsToRest) {
   const std::vector<std::string> alone = {
       "robots.blue=off",        "robots.red=off",       "robots.blue_keeper=off",          "robots.red_keeper=off",
@@ -65,7 +65,7 @@ TEST(Match, TheBallRollsToRest) {
   EXPECT_LT(s.world().value("ball/body", keys::twist).linear.norm(), 1e-3);
 }
 
-/// Blue's forward, at some motion, with two mates who only stand there.
+/// Returns a match of blue's forward, with this motion, and two mates that only stand there.
 BuiltScenario forward_alone(const std::string& motion, const std::string& seed = "seed=1") {
   const std::string without_red =
       R"(algorithms.referee.inputs=["ball.pose=ball/body:pose", "left.poses=blue*/base_link:pose", )"
@@ -76,7 +76,7 @@ BuiltScenario forward_alone(const std::string& motion, const std::string& seed =
                test::plugins());
 }
 
-/// s, until it has scored.
+/// Returns the time (s) until it has scored.
 double time_of_goal(const std::string& motion, const std::string& seed = "seed=1") {
   BuiltScenario built = forward_alone(motion, seed);
   Simulation& s = *built.simulation;
@@ -92,11 +92,11 @@ TEST(SlowMatch, AForwardAloneScoresAtEachLevel) {
   EXPECT_LT(time_of_goal("articulated", "seed=2"), 100);
 }
 
-/// Whether there is a goal in it hangs on each bit of each picture: see README.md.
+/// A goal in this half depends on each bit of each picture: see README.md.
 TEST(SlowMatch, AHalfEndsAfterKicksWithTheBallInTheField) {
   BuiltScenario built = build(read_scenario(file, {}), test::plugins());
   Simulation& s = *built.simulation;
-  double rolled = 0, lowest = 1;  // m, of the ball's way; of its centre
+  double rolled = 0, lowest = 1;  // m: way of the ball; height of its centre
   int kicks = 0;
   bool rolls_fast = false;
   Vec3 before = s.world().value("ball/body", keys::pose).position;
@@ -104,7 +104,7 @@ TEST(SlowMatch, AHalfEndsAfterKicksWithTheBallInTheField) {
     s.run_for(0.1);
     const Vec3 ball = s.world().value("ball/body", keys::pose).position;
     const double way = (ball - before).norm(), speed = s.world().value("ball/body", keys::twist).linear.norm();
-    rolled += way < 1 ? way : 0;  // it was put somewhere else
+    rolled += way < 1 ? way : 0;  // a longer way: the ball was put somewhere else
     lowest = std::min(lowest, ball.z());
     kicks += speed > 0.4 && !rolls_fast ? 1 : 0;
     rolls_fast = speed > (rolls_fast ? 0.2 : 0.4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a player believes the others to be, and how to walk without running into them.
+// Places of the other players, as a player believes them, and ways to walk that avoid them.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace soccer {
 
-/// Mates and opponents, as they were seen or have told a short time ago.
+/// Mates and opponents that were seen or reported a short time ago.
 class Others {
  public:
   static constexpr double remembers = 2;  ///< s
@@ -25,7 +25,7 @@ class Others {
   void pass(double seconds) {
     for (Other& o : all_) o.age += seconds;
   }
-  /// Somebody is there now: the one who was nearest to it, or the one who was seen the longest time ago.
+  /// Notes a player at a place now: the known one that was nearest to it, or else the one seen the longest time ago.
   void see(const Point& at) {
     constexpr double same = 0.5;  // m
     const Other* const near = nearest(at, same);
@@ -33,27 +33,27 @@ class Others {
     who = {at, 0};
   }
 
-  /// Whether nobody is nearer than `keep` (m) to the straight way from `from` to `to`.
+  /// Returns whether nobody is nearer than `keep` (m) to the straight way from `from` to `to`.
   bool is_free(const Point& from, const Point& to, double keep) const { return !first_on(from, to, keep); }
-  /// The nearest to a point; none that is farther away than `within` (m).
+  /// Returns the player nearest to a point; null when all are farther away than `within` (m).
   const Other* nearest(const Point& to, double within) const {
     const Other* best = nullptr;
     for (const Other& o : all_)
       if (o.is_there() && (o.at - to).norm() < within) best = &o, within = (o.at - to).norm();
     return best;
   }
-  /// Where to walk first, so as to get to `to` at a distance of `keep` (m) from everybody.
+  /// Returns the point to walk to first, so as to reach `to` at a distance of `keep` (m) from everybody.
   Point detour(const Point& from, const Point& to, double keep) const {
     const Other* const first = first_on(from, to, keep);
     return first ? beside(first->at, from, to, keep) : to;
   }
-  /// A point beside an obstacle, on the side on which the way passes it, a fifth farther away than `keep` (m), so that
-  /// the way to it keeps the distance as well.
+  /// Returns a point beside an obstacle, on the side on which the way passes it. It is a fifth farther away than `keep`
+  /// (m), so that the way to it keeps the distance, too.
   static Point beside(const Point& obstacle, const Point& from, const Point& to, double keep) {
     const Line way(from, to);
     return obstacle + (way.left_of(obstacle) > 0 ? -1.2 * keep : 1.2 * keep) * way.normal;
   }
-  /// Whether an obstacle is in the way.
+  /// Returns whether an obstacle is in the way.
   static bool blocks(const Point& obstacle, const Point& from, const Point& to, double keep) {
     const Line way(from, to);
     return way.along(obstacle) > 0 && way.along(obstacle) < way.length && std::abs(way.left_of(obstacle)) < keep;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Points, and places with a heading, on level ground: m, rad. And how fast one walks.
+// Points, and places with a heading, on level ground (m, rad), and the command of a walk.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ struct Place {
   Point at;
   double yaw = 0;
 
-  /// From its own frame, x ahead and y to the left, to that in which it is, and back.
+  /// Converts from its own frame, x ahead and y to the left, to the frame in which it is given, and back.
   Point to_world(const Point& p) const {
     const double c = muro_cos(yaw), s = muro_sin(yaw);
     return at + Point{c * p.x - s * p.y, s * p.x + c * p.y};
@@ -35,7 +35,7 @@ struct Place {
 struct Command {
   double x = 0, y = 0, turn = 0;
 };
-/// rad: the same direction within half a turn.
+/// Returns the same direction within half a turn, rad.
 inline double wrapped(double angle) { return std::remainder(angle, 2 * 3.14159265358979323846); }
 
 }  // namespace soccer

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A player: finds the ball, goes behind it and kicks it to the goal, or keeps its place and leaves the ball to a mate.
-// It knows what its camera has found (look.cpp), how it has walked (examples/walk) and what mates tell. The one whose
-// way to the ball is shortest goes for it, the others keep to their places, a keeper to the line between ball and goal.
+// It uses what its camera finds (look.cpp), how it has walked (examples/walk) and messages of mates. The player with
+// the shortest way to the ball goes for it; the others keep their places, a keeper the line between ball and goal.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,12 +38,12 @@ enum Tunable {
   attack, goal_x, goal_width, kick_x, kick_y, kick_speed, kick_way,
   // clang-format on
 };
-enum WalkPhase : std::int64_t { stands = 1, walks = 2, falls = 3, gets_up = 4, kicks = 5 };  ///< of examples/walk
+enum WalkPhase : std::int64_t { stands = 1, walks = 2, falls = 3, gets_up = 4, kicks = 5 };  ///< see examples/walk
 
 constexpr double forgets = 10;       // s: a ball that nobody has seen for so long is searched for
-constexpr double trusts_itself = 3;  // s: before it believes mates where the ball is
-constexpr double unseen = 2;         // s: a ball that the one who is to kick it does not see any more
-constexpr double far_away = 100;     // m: of who does not know where the ball is
+constexpr double trusts_itself = 3;  // s: age of its own sight from which it believes mates
+constexpr double unseen = 2;         // s: after so long without a sight, the kicker has lost the ball
+constexpr double far_away = 100;     // m: cost of a player that does not know where the ball is
 
 class Play {
  public:
@@ -113,23 +113,23 @@ class Play {
   void load(Loader& from) { memory_ = from.get<Memory>(); }
 
  private:
-  /// All that a step leaves for the next.
+  /// State that a step leaves for the next.
   struct Memory {
-    Localisation self;        ///< on the field
-    Command pending;          ///< m, m, rad: what the legs have been told and have not done yet
-    Place by_legs;            ///< as the legs have gone, since the start of the walk
+    Localisation self;        ///< its place on the field
+    Command pending;          ///< m, m, rad: commanded motion that the legs have not done yet
+    Place by_legs;            ///< way of the legs since the start of the walk
     double heading = 0;       ///< rad, by the IMU
-    std::int64_t phase = 0;   ///< of the walk
-    Point ball;               ///< m, on the field: where it was last seen, by itself or by a mate
+    std::int64_t phase = 0;   ///< phase of the walk
+    Point ball;               ///< m, on the field: where the player or a mate last saw it
     double age = 1e3;         ///< s: since then
-    double goals = 0;         ///< up to now
-    std::int64_t doubts = 0;  ///< how often it was seen somewhere else
-    double searched = 0;      ///< s: for how long
+    double goals = 0;         ///< number of goals up to now
+    std::int64_t doubts = 0;  ///< number of times in a row that it was seen elsewhere
+    double searched = 0;      ///< s: duration of the search
     Role role = searches;
     Striker striker;
     Others others;
-    std::int64_t foot = 0;        ///< that is to kick: 1 left, -1 right
-    std::int64_t has_kicked = 0;  ///< and has not seen the ball since then
+    std::int64_t foot = 0;        ///< foot that is to kick: 1 left, -1 right
+    std::int64_t has_kicked = 0;  ///< 1: it has kicked, and has not seen the ball since then
     double asked = 0;             ///< s: since the kick was asked for
   };
 
@@ -139,7 +139,7 @@ class Play {
  private:
   const Place& me() const { return memory_.self.place(); }
 
-  /// Dead reckoning, the way as the legs have gone it and the heading by the IMU; corrected by posts and lines.
+  /// Dead reckoning, with the way by the legs and the heading by the IMU; corrected by posts and lines.
   void reckon(const Step& now) {
     const auto walked = now.input(odometry), q = now.input(orientation);
     const double heading = muro_atan2(2 * (q[3] * q[2] + q[0] * q[1]), 1 - 2 * (q[1] * q[1] + q[2] * q[2]));
@@ -159,13 +159,13 @@ class Play {
     memory_.self.see_posts(seen.from(now.input(goal_seen)));
     memory_.self.see_lines(seen.from(now.input(lines_seen)));
   }
-  /// A ball that it has kicked and does not see is where its kicks go.
+  /// Expects a kicked ball that is out of sight where its kicks go.
   void expect_ball_ahead(const Step& now) {
     constexpr double lost = 0.3, near = 0.6;  // s, m
     if (phase(now) == falls || memory_.age < lost || (memory_.ball - me().at).norm() > near) return;
     memory_.ball = me().to_world({now.tunable(kick_x) + now.tunable(kick_way), 0}), memory_.age = lost;
   }
-  /// A list of points, which begins with their number.
+  /// Reads a list of points that begins with their number.
   struct Points {
     std::array<Point, 32> all;
     std::span<const Point> from(std::span<const double> told) {
@@ -190,7 +190,7 @@ class Play {
     const auto seen = now.input(ball_seen);
     if (seen[0] != 0 && !lies(now)) see_ball(me().to_world({seen[1], seen[2]}));
   }
-  /// After a goal the ball is put on the centre mark.
+  /// Expects the ball on the centre mark after a goal.
   void hear_goal(const Step& now) {
     const auto score = now.input(match_score);
     if (score.empty() || score[0] + score[1] == memory_.goals) return;
@@ -198,7 +198,7 @@ class Play {
     memory_.goals = score[0] + score[1];
     memory_.ball = {}, memory_.age = until_put;
   }
-  /// A ball that is far from where it was is believed when it is seen again.
+  /// Takes the place of a seen ball. A place far from the last one is believed after repeated sights.
   void see_ball(const Point& at) {
     constexpr double leap = 0.6, recent = 1.5;  // m, s
     constexpr std::int64_t times = 3;
@@ -212,18 +212,18 @@ class Play {
     for (std::size_t i = 0; i + TeamMessage::size <= told.size(); i += TeamMessage::size)
       if (const auto m = TeamMessage::from(told.subspan(i, TeamMessage::size));
           m.number != 0 && m.number != own_number(now))
-        f(m);  // 0: it has not told anything yet
+        f(m);  // 0: no message yet
   }
   static std::int64_t own_number(const Step& now) { return std::int64_t(now.tunable(number)); }
 
-  /// Where it will be when its legs have done what they have been told.
+  /// Returns where it will be when the legs have done what was commanded.
   Place place_soon() const {
     return {me().to_world({memory_.pending.x, memory_.pending.y}), me().yaw + memory_.pending.turn};
   }
   std::int64_t phase(const Step& now) const { return std::int64_t(now.input(walk_phase)[0]); }
-  /// Or falls, or gets up.
+  /// Returns whether it lies, falls or gets up.
   bool lies(const Step& now) const { return phase(now) == falls || phase(now) == gets_up; }
-  /// m: how far it is to the ball, and about it; a robot that lies gets up first.
+  /// Returns the way to the ball and around it in m; a robot that lies gets up first.
   double cost(const Step& now) const {
     if (memory_.age > forgets) return far_away;
     const Point way = memory_.ball - me().at;
@@ -237,10 +237,10 @@ class Play {
     const double mine = cost(now);
     if (mine >= far_away) return searches;
     const auto kick_off = now.input(match_kick_off);
-    if (!kick_off.empty() && kick_off[0] * now.tunable(attack) < 0) return keeps_place;  // the others have it
+    if (!kick_off.empty() && kick_off[0] * now.tunable(attack) < 0) return keeps_place;  // the other team has it
     constexpr double near_goal = 0.6;  // m: a ball that the keeper fetches itself
     if (now.tunable(keeper) > 0 && std::abs(memory_.ball.x - now.tunable(home_x)) > near_goal) return keeps_place;
-    constexpr double begins = 0.1, goes_on = 0.3;  // m: so much nearer than mates; so much farther who goes for it
+    constexpr double begins = 0.1, goes_on = 0.3;  // m: begins when nearer by this; goes on until farther by this
     const bool goes = memory_.role == goes_for_ball;
     bool is_best = true, is_nearest = true, somebody_goes = false;
     for_each_mate(now, [&](const TeamMessage& m) {
@@ -268,7 +268,7 @@ class Play {
         return {steering.go_to(place(now), steering.heading_to(memory_.ball), {.distance = 0.2, .angle = 0.35}), 0};
     }
   }
-  /// Somebody stands right before it. Who is at the ball stays there.
+  /// Returns whether somebody stands right in front of it. A player at the ball stays there.
   bool is_too_near() const {
     constexpr double touch = 0.3, at_ball = 0.35;  // m
     if (memory_.role == goes_for_ball && memory_.age < unseen && (memory_.ball - me().at).norm() < at_ball)
@@ -276,12 +276,12 @@ class Play {
     const Others::Other* const o = memory_.others.nearest(me().at, touch);
     return o && me().to_own(o->at).x > 0;
   }
-  /// A ball that was last seen at its feet lies there still: it goes back to see it.
+  /// Returns whether the ball was last seen at its feet, and not lately: it probably lies there still.
   bool is_lost_at_feet(double since) const {
     constexpr double at_feet = 0.6;  // m
     return memory_.age > since && (memory_.ball - me().at).norm() < at_feet;
   }
-  /// It walks to where the ball was last and turns about there; then before the other goal, to its place, and so on.
+  /// Walks to the ball's last place and turns there; then before the other goal, then at its own place, and so on.
   Command search(const Step& now, const Steering& steering) const {
     constexpr double walks_for = 9, turns_for = 10, goes_back = 5;  // s
     constexpr double there = 0.8, before_goal = 2;                  // m
@@ -294,7 +294,7 @@ class Play {
     return steering.go_to(to, steering.heading_to(to), {.distance = 0.3, .angle = 0.3});
   }
 
-  /// Its place, from which it goes along with the ball, and out of the way of who goes for it.
+  /// Returns its place, which moves along with the ball and away from the player who goes for it.
   Point place(const Step& now) const {
     const Point home{now.tunable(home_x), now.tunable(home_y)};
     if (now.tunable(keeper) > 0)
@@ -306,19 +306,19 @@ class Play {
     return off.norm() >= apart || off.norm() < 1e-6 ? place : memory_.ball + (apart / off.norm()) * off;
   }
 
-  /// A kick is asked for until it is taken.
+  /// Writes the commands. A kick is requested until it is made.
   void write(const Striker::Decision& d, const Step& now) {
     constexpr double patience = 2.5;  // s
     const bool was_asked = memory_.foot != 0;
     memory_.asked = was_asked ? memory_.asked + now.period() : 0;
     if (phase(now) == kicks || phase(now) == falls || memory_.asked > patience) memory_.foot = 0;
     if (phase(now) == kicks) memory_.has_kicked = 1;
-    // it is heard when it changes from 0, while the robot stands or walks
+    // the walk takes a kick when it changes from 0, while the robot stands or walks
     const bool may_kick = phase(now) == stands || phase(now) == walks;
     if (d.kick != 0 && !was_asked && may_kick && !memory_.has_kicked) memory_.foot = d.kick;
     const auto command = now.output(walk_command), kick = now.output(walk_kick);
     const Command walk = memory_.foot == 0 && phase(now) != kicks ? d.walk : Command{};
-    constexpr double lag = 0.5, lag_of_turns = 1.2;  // s: of the legs
+    constexpr double lag = 0.5, lag_of_turns = 1.2;  // s: lags of the legs
     const auto follow = [&](double& pending, double told, double lag_of_it) {
       pending = lag_of_it / (lag_of_it + now.period()) * (pending + now.period() * told);
     };

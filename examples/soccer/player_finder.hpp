@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds other players: what stands on the grass and shows the colour of a team.
+// Finds other players: objects that stand on the grass and show the colour of a team.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class PlayerFinder {
  public:
   using Players = Finds<SeenPlayer, 4>;
 
-  /// The nearest ones first. `ball`: where one is seen (m); it is dark, too, and lies at feet.
+  /// Returns the nearest players first. `ball`: a ball that is seen (m); it is dark, too, and lies at feet.
   Players find(const Image& image, const CameraView& view, const std::optional<Vector>& ball) {
     scan(image, view, ball);
     Players players;
@@ -41,18 +41,18 @@ class PlayerFinder {
   static constexpr double none = 1e3;           ///< m
   static constexpr double half_width = 0.17;    ///< m, of a player with its arms down
   static constexpr double height = 0.5;         ///< m
-  static constexpr double own = 0.25;           ///< m: what is nearer is part of the player itself
-  static constexpr double reach_of_arms = 0.6;  ///< m: the same, at its sides
+  static constexpr double own = 0.25;           ///< m: nearer objects are parts of the player itself
+  static constexpr double reach_of_arms = 0.6;  ///< m: limit of its own parts at its sides
   static constexpr int step = 2;                ///< px, from column to column
   static constexpr int middle_of_step = step / 2;
   static constexpr std::size_t most_columns = 1024;
 
   struct Column {
-    double range = none;  ///< m, along the ground, of what stands there
-    int row = 0;          ///< px, of its foot
+    double range = none;  ///< m, distance along the ground of the object there
+    int row = 0;          ///< px, row of its foot
   };
 
-  /// For each column the lowest pixel that is neither grass nor line.
+  /// Finds for each column the lowest pixel that is neither grass nor line.
   void scan(const Image& image, const CameraView& view, const std::optional<Vector>& ball) {
     const auto centre = ball ? view.pixel_of(*ball) : std::nullopt;
     const double size =
@@ -76,7 +76,7 @@ class PlayerFinder {
     }
   }
 
-  /// About the column that is nearest, which is taken, with all that belong to a player there.
+  /// Finds the player about the nearest column, and removes all columns that belong to it.
   std::optional<SeenPlayer> player_about(std::size_t i, const Image& image, const CameraView& view) {
     const double range = columns_[i].range;
     const int u = int(i) * step + middle_of_step;
@@ -109,7 +109,7 @@ class PlayerFinder {
     return SeenPlayer{(1 + behind_toes / distance) * Vector{feet->x, feet->y, 0}, team > 0 ? 1 : -1};
   }
 
-  /// Above 0: mostly blue, below 0: mostly red, 0: too little of both.
+  /// Returns more than 0 for mostly blue, less than 0 for mostly red, 0 for too little of both.
   static int team_in(const Image& image, double u, int row, double wide, double high) {
     const int left = std::max(0, int(u - wide)), right = std::min(image.width() - 1, int(u + wide));
     const int top = std::max(0, row - int(high));
@@ -125,7 +125,7 @@ class PlayerFinder {
   }
 
   static void add(const SeenPlayer& player, Players& players) {
-    constexpr double same = 0.3;  // m: an arm of one that was found
+    constexpr double same = 0.3;  // m: nearer, it is an arm of a player that was found
     for (const SeenPlayer& other : players.all()) {
       const Vector apart = player.feet + (-1) * other.feet;
       if (other.team == player.team && dot(apart, apart) < same * same) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds the posts of goals: white stripes that stand upright on the ground, as wide as a post where their feet are
-// seen.
+// Finds the posts of goals: upright white stripes that stand on the ground and are as wide as a post at the place of
+// their feet.
 #pragma once
 
 #include <algorithm>
@@ -18,10 +18,10 @@ class PostFinder {
  public:
   using Posts = Finds<Vector, 2>;
 
-  /// `radius`: m, of a post.
+  /// `radius`: m, radius of a post.
   explicit PostFinder(double radius) : radius_(radius) {}
 
-  /// The axes of posts on the ground in the heading frame (m); the left one first.
+  /// Returns the axes of posts on the ground in the heading frame (m); the left one first.
   Posts find(const Image& image, const CameraView& view) const {
     Finds<Vector, 8> seen;
     constexpr int row_step = 3;
@@ -57,10 +57,10 @@ class PostFinder {
     seen.add(foot);
   }
 
-  /// Where a stripe that is seen in a row stands on the ground.
+  /// Returns where a stripe that is seen in a row stands on the ground.
   std::optional<Vector> follow_down(Stripe stripe, int row, const Image& image, const CameraView& view) const {
     double u = stripe.middle(), widths = 0, drift = 0;
-    int rows = 0, free_rows = 0;  // free: bounded on both sides by something else than white
+    int rows = 0, free_rows = 0;  // free: bounded on both sides by another colour than white
     for (;; ++row, ++rows) {
       if (row >= image.height()) return std::nullopt;  // its foot is below the picture
       const auto here = stripe_at(u, row, image);
@@ -75,7 +75,7 @@ class PostFinder {
       const Pixel up = view.upright_at({u, row + 0.5});
       u += up.u / up.v;
     }
-    constexpr double leans = 0.08;  // of its height
+    constexpr double leans = 0.08;  // share of its height
     if (free_rows < 4 || 3 * free_rows < rows || std::abs(drift) > leans * free_rows + 1) return std::nullopt;
     if (!is_on_ground(u, row + 1, stripe.width(), image)) return std::nullopt;
     const double bottom = bottom_of(u, row, image);
@@ -84,16 +84,16 @@ class PostFinder {
     if (!front) return std::nullopt;
     const double distance = std::sqrt(front->x * front->x + front->y * front->y), depth = view.depth_of(*front);
     if (distance > farthest || depth < 0.2) return std::nullopt;
-    const double slant = std::sqrt(up.u * up.u + up.v * up.v) / -up.v;  // of its length in a row
+    const double slant = std::sqrt(up.u * up.u + up.v * up.v) / -up.v;  // length for each row
     const double width = widths / free_rows / slant, expected = 2 * radius_ * view.lens().fx / depth;
-    // narrower are the tubes and the net behind a goal; those beside a post make it look wider
+    // tubes and the net behind a goal are narrower; beside a post they make it look wider
     if (width < 0.97 * expected - 0.4 || width > 1.4 * expected + 1.2) return std::nullopt;
-    constexpr double least_height = 0.25;  // m: lines and shoes are less
+    constexpr double least_height = 0.25;  // m: lines and shoes are lower
     if (rows < least_height * -up.v / depth) return std::nullopt;
     return (1 + radius_ / distance) * Vector{front->x, front->y, 0};
   }
 
-  /// Whether there is grass below, or a line that leads to it.
+  /// Returns whether there is grass below, or a line with grass beside it.
   static bool is_on_ground(double u, int row, double width, const Image& image) {
     const auto below = image.at(u, row), left = image.at(u - width, row), right = image.at(u + width, row);
     const auto is = [](const std::optional<Color>& color, Color c) { return !color || *color == c; };
@@ -101,7 +101,7 @@ class PostFinder {
     return is(below, green) ||
            (is(below, white) && is_ground(left) && is_ground(right) && (is(left, green) || is(right, green)));
   }
-  /// px: between the last white row and the next one, by how white they are.
+  /// Returns the bottom in px, between the last white row and the next one, by the whiteness of the rows.
   static double bottom_of(double u, int row, const Image& image) {
     const int column = int(std::floor(u));
     if (column < 0 || column >= image.width() || row < 3 || row + 1 >= image.height()) return row;
@@ -113,7 +113,7 @@ class PostFinder {
       bottom += std::clamp((image.least(column, v) - grass) / (post - grass), 0.0, 1.0);
     return bottom;
   }
-  /// The white run about (u, row).
+  /// Returns the white run about (u, row).
   static std::optional<Stripe> stripe_at(double u, int row, const Image& image) {
     const int middle = int(std::floor(u));
     if (middle < 0 || middle >= image.width() || image.color(middle, row) != white) return std::nullopt;
@@ -127,7 +127,7 @@ class PostFinder {
     const auto all = seen.all();
     std::sort(all.begin(), all.end(), [](const Vector& a, const Vector& b) { return dot(a, a) < dot(b, b); });
     Posts posts;
-    constexpr double apart = 1.2;  // m: what is nearer to a post is the frame of its goal
+    constexpr double apart = 1.2;  // m: nearer stripes belong to the frame of the same goal
     for (const Vector& foot : all) {
       const auto known = posts.all();
       const bool is_frame = std::any_of(known.begin(), known.end(), [&](const Vector& other) {

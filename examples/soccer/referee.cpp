@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The referee of a match: counts goals, falls and balls that went out, puts the ball on its spot, ends the half. It
-// sees the true poses of ball and players, as the one of the league's virtual season does. What it says are properties
-// of the world object, `match.*`, which players may read and recorder.report puts into the report.
+// sees the true poses of ball and players, like the referee of the league's virtual season. It writes properties of the
+// world object, `match.*`, which players may read and recorder.report puts into the report.
 #include <array>
 #include <cstdint>
 
@@ -19,20 +19,20 @@ enum Output { place_pose, place_twist, place_count, match_state, match_score, ma
 enum Tunable { length, width, goal_width, half, pause, patience, kick_off };
 enum State { waits_for_ball, plays, is_over };  ///< `match.state`
 
-constexpr double reach = 0.3;   // m: who is nearest to the ball within this distance has touched it last
+constexpr double reach = 0.3;   // m: the player nearest to the ball within this distance has touched it last
 constexpr double stuck = 0.15;  // m: a ball that stays within this distance for `patience` is stuck
 constexpr int most_players = 32;
 
-/// Of the match, as it is saved.
+/// State of the match, as it is saved.
 struct Match {
   std::array<std::int64_t, 2> score{}, falls{};
   std::int64_t outs = 0, state = plays, placements = 0, tries = 0, last_touch = no_team;
-  double restart_time = 0;    // s: when the ball is put on its spot
-  Spot spot;                  // where it is put
-  Spot rest;                  // where the ball was when it began to rest
-  double rest_time = 0;       // s: since when
-  std::int64_t kick_off = 0;  // 1: the left team has it, -1: the right one, 0: the ball is in play
-  double kick_off_time = 0;   // s: since when it lies on the centre mark for that
+  double restart_time = 0;    // s: time at which the ball is put on its spot
+  Spot spot;                  // spot of the ball
+  Spot rest;                  // place of the ball when it began to rest
+  double rest_time = 0;       // s: time at which it began to rest
+  std::int64_t kick_off = 0;  // 1: the left team has it, -1: the right team, 0: the ball is in play
+  double kick_off_time = 0;   // s: time at which the ball was put on the centre mark for it
   std::array<FallWatch, most_players> players{};
 };
 
@@ -145,7 +145,7 @@ class Referee {
     match_.tries = 0;
   }
 
-  /// Where somebody stands on the spot, beside it.
+  /// Puts the ball on its spot, or beside the spot when somebody stands there.
   void put_ball(const Step& now) {
     if (now.time() < match_.restart_time) return;
     const double answer = now.input(place_answer)[0];

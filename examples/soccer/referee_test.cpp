@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The referee with a ball that rolls by itself, on the field of the match.
+// The referee with a ball that rolls freely, on the field of the match.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -137,13 +137,13 @@ TEST(Referee, CountsAFallOnce) {
   EXPECT_EQ(m.told("match.falls"), (Numbers{1, 0}));
 }
 
-/// Of a trunk's axis z along "up", each 0.2 s: a humanoid of examples/walk gets up from its back. It sits, bends
-/// forward over its feet, and rises.
+/// Component of a trunk's axis z along "up", every 0.2 s: a humanoid of examples/walk gets up from its back. It sits,
+/// bends forward over its feet, and rises.
 constexpr double from_the_back[] = {0.05, 0.05, 0.05, 0.05, 0.05, 0.07, 0.20, 0.40, 0.60, 0.77, 0.90, 0.98,
                                     0.98, 0.96, 0.90, 0.86, 0.85, 0.81, 0.80, 0.77, 0.62, 0.57, 0.15, 0.19,
                                     0.52, 0.74, 0.90, 0.90, 0.96, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00};
 
-/// Blue's trunk goes as recorded.
+/// Moves blue's trunk as recorded.
 void get_up(Match& m) {
   const ObjectId trunk = m.s.world().object("blue/body");
   for (std::size_t i = 1; i < std::size(from_the_back); ++i)

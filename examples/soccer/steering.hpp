@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a player walks to a place: forwards to what is far, in small steps to what is near, around the others.
+// Walk of a player to a place: forwards to a far one, in small steps to a near one, around the others.
 #pragma once
 
 #include <algorithm>
@@ -12,19 +12,19 @@ namespace soccer {
 
 class Steering {
  public:
-  /// The fastest walk: m/s, m/s, rad/s.
+  /// Greatest velocities of a walk: m/s, m/s, rad/s.
   struct Pace {
     double forward = 0.25, sideways = 0.08, turn = 0.6;
   };
-  static constexpr double elbow_room = 0.36;  ///< m: from other players
+  static constexpr double elbow_room = 0.36;  ///< m: distance from other players
 
   Steering(const Pace& pace, const Place& me, const Others& others) : pace_(pace), me_(me), others_(&others) {}
 
-  /// How exactly a place is to be met: m, rad.
+  /// Tolerances of a place: m, rad.
   struct Room {
     double distance = 0.04, angle = 0.1;
   };
-  /// To a point, and to a heading there.
+  /// Returns the command for a walk to a point, and to a heading there.
   Command go_to(const Point& target, double heading, const Room& room) const {
     const Point next = others_->detour(me_.at, target, elbow_room);
     const Point way = me_.to_own(next);
@@ -34,21 +34,21 @@ class Steering {
     if (way.norm() < room.distance && !goes_around) return {0, 0, std::abs(off) > room.angle ? turning(off) : 0};
     return small_step({way.x, way.y}, goes_around ? 0 : off);
   }
-  /// The remaining way in its own frame (m), and the angle to turn (rad).
+  /// Returns the command for the remaining way in its own frame (m) and the angle to turn (rad).
   Command small_step(const Point& way, double off) const {
     constexpr double near = 0.2;  // m: nearer, it walks at half its pace
     const double most = way.x > near ? pace_.forward : 0.5 * pace_.forward;
     return {std::clamp(0.8 * way.x, -0.5 * pace_.forward, most),
             std::clamp(0.8 * way.y, -pace_.sideways, pace_.sideways), turning(off)};
   }
-  /// On the spot, about itself.
+  /// Turns on the spot.
   Command turn() const { return {0, 0, pace_.turn}; }
   Command back() const { return {-0.4 * pace_.forward, 0, 0}; }
   double heading_to(const Point& p) const { return muro_atan2(p.y - me_.at.y, p.x - me_.at.x); }
 
  private:
   static constexpr double near_by = 0.3;  ///< m
-  static constexpr double calm = 0.4;     ///< rad/s: near its place it turns no faster
+  static constexpr double calm = 0.4;     ///< rad/s: greatest rate of turns near its place
 
   Command walk_to(const Point& target) const {
     const double off = wrapped(heading_to(target) - me_.yaw);

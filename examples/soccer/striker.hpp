@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The player who goes for the ball: gets behind it, lines up, and kicks it to where nobody stands, at best the goal.
+// The player that goes for the ball: gets behind it, lines up, and kicks it to where nobody stands, best into the goal.
 #pragma once
 
 #include <cstdint>
@@ -8,24 +8,24 @@
 
 namespace soccer {
 
-/// What a player knows of its robot and of the field.
+/// Settings of a player for its robot and the field.
 struct StrikerSettings {
   double attack = 1;        ///< 1: the goal at x > 0; -1: the other one
-  double goal_x = 4.5;      ///< m: of the goal line
+  double goal_x = 4.5;      ///< m: x of the goal line
   double goal_width = 2.6;  ///< m
-  double kick_x = 0.165;    ///< m: where the ball is to lie, ahead of the trunk
-  double kick_y = 0.055;    ///< m: and to the side of the foot that kicks
-  double kick_room_x = 0.04, kick_room_y = 0.035, kick_room_angle = 0.3;  ///< m, m, rad: so exactly
+  double kick_x = 0.165;    ///< m: place of the ball for a kick, ahead of the trunk
+  double kick_y = 0.055;    ///< m: and sideways, on the side of the kicking foot
+  double kick_room_x = 0.04, kick_room_y = 0.035, kick_room_angle = 0.3;  ///< m, m, rad: tolerances
 };
 
 class Striker {
  public:
   struct Decision {
     Command walk;
-    std::int64_t kick = 0;  ///< 1: with the left foot, -1: with the right one
+    std::int64_t kick = 0;  ///< 1: kick with the left foot, -1: with the right one
   };
 
-  /// `here`: where it is; `me`: where it will be when its legs have done what they have been told.
+  /// `here`: its place; `me`: its place when the legs have done what was commanded.
   Decision act(const Place& here, const Place& me, const Point& ball, const Others& others, const Steering& steering,
                const StrikerSettings& s) {
     const double aim = choose_aim(me, ball, others, s);
@@ -39,17 +39,17 @@ class Striker {
     foot_ = 0;
     return {go_behind(me, ball, aim, steering), 0};
   }
-  /// Another one goes for the ball now.
+  /// Forgets the aim: another player goes for the ball now.
   void rest() { *this = {}; }
 
  private:
-  static constexpr double behind = 0.3;    ///< m: the place from which it lines up
-  static constexpr double aside = 0.32;    ///< m: it passes the ball at a fifth more than that
-  static constexpr double shot = 1.0;      ///< m: so far the way of the ball is to be free
-  static constexpr double corridor = 0.2;  ///< m: half of a player, a ball's radius, and what is not known exactly
+  static constexpr double behind = 0.3;    ///< m: distance from the ball at which it lines up
+  static constexpr double aside = 0.32;    ///< m: it passes the ball at this distance and a fifth more
+  static constexpr double shot = 1.0;      ///< m: length of the ball's way that must be free
+  static constexpr double corridor = 0.2;  ///< m: half a player, a ball's radius, and a margin for errors
 
-  /// rad, on the field: into the goal, or past who stands before it, rather where it looks already than where it would
-  /// have to turn to. What was chosen holds while the ball lies still, its way is free, and nothing is much better.
+  /// Returns the aim, rad, on the field: into the goal, or past a player in front of it; directions near the present
+  /// heading are preferred. An aim is kept while the ball lies still, its way is free, and no other aim is much better.
   double choose_aim(const Place& me, const Point& ball, const Others& others, const StrikerSettings& s) {
     constexpr double near = 0.6, moved = 0.25;                 // m
     constexpr double step = 0.25, turned = 0.5, better = 0.3;  // rad, 1, rad
@@ -69,7 +69,7 @@ class Striker {
     if (!holds || cost(aim_) > least + better) aim_ = best, aimed_from_ = ball;
     return aim_;
   }
-  /// From far away it need not be aimed well: another kick follows.
+  /// Returns the direction to the goal. From far away it need not be exact: another kick follows.
   static double aim_at_goal(const Place& me, const Point& ball, const StrikerSettings& s) {
     constexpr double from_post = 0.35, far = 2.5, careless = 0.15;  // m, m, rad
     const double line = s.attack * s.goal_x, mouth = 0.5 * s.goal_width - from_post;
@@ -82,19 +82,19 @@ class Striker {
     return middle + std::clamp(wrapped(from_here - middle), std::min(one, other) - wide, std::max(one, other) + wide);
   }
 
-  /// The ball lies ahead, from `here` and from where it will be: the last steps to it, and the kick.
+  /// Makes the last steps to the ball, and the kick. The ball lies ahead of its present place and of its next place.
   Decision line_up(const Point& from_here, const Point& ball, double off, const Steering& steering,
                    const StrikerSettings& s) {
     constexpr double firm = 0.02, steadily = 0.3;  // m, 1
     const bool begins = foot_ == 0;
     if (begins || double(foot_) * ball.y < -firm) foot_ = ball.y < 0 ? -1 : 1;
-    // a trunk that walks sways about its way
+    // the trunk sways about its way during a walk
     sway_ = begins ? ball.y : sway_ + steadily * (ball.y - sway_);
     const auto from_foot = [&](double x, double y) { return Point{x - s.kick_x, y - double(foot_) * s.kick_y}; };
     const auto is_within = [&](const Point& p, double share) {
       return std::abs(p.x) < share * s.kick_room_x && std::abs(p.y) < share * s.kick_room_y;
     };
-    constexpr double roughly = 1.7;  // now, while it sways and turns yet
+    constexpr double roughly = 1.7;  // factor of the present tolerance, while it still sways and turns
     const Point way = from_foot(ball.x, sway_);
     const bool is_there = is_within(way, 1) && is_within(from_foot(from_here.x, from_here.y), roughly) &&
                           std::abs(off) < s.kick_room_angle;
@@ -108,10 +108,10 @@ class Striker {
     return steering.go_to(Others::beside(ball, me.at, place, aside), steering.heading_to(ball), {});
   }
 
-  double sway_ = 0;             ///< m: how far to the side the ball lies, over the sway of the walk
-  std::int64_t foot_ = 0;       ///< that is going to kick; 0: it does not line up
+  double sway_ = 0;             ///< m: lateral place of the ball, averaged over the sway of the walk
+  std::int64_t foot_ = 0;       ///< foot that is going to kick; 0: it does not line up
   double aim_ = 0;              ///< rad, on the field
-  Point aimed_from_{1e3, 1e3};  ///< m: where the ball lay then
+  Point aimed_from_{1e3, 1e3};  ///< m: place of the ball when the aim was chosen
 };
 
 }  // namespace soccer

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What players of a team tell each other, several times a second: the numbers of `team.message`.
+// Messages that the players of a team send each other several times a second: the numbers of `team.message`.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace soccer {
 
-/// What a player does; who goes for the ball is told to the others, who leave it to him.
+/// Activity of a player. The others leave the ball to a player that goes for it.
 enum Role : std::int64_t { waits, searches, goes_for_ball, keeps_place };
 
 struct TeamMessage {
-  std::int64_t number = 0;  ///< of the player
+  std::int64_t number = 0;  ///< number of the player
   Role role = waits;
-  double cost = 0;  ///< m: of the way to where the ball can be kicked from
+  double cost = 0;  ///< m: length of the way to where the ball can be kicked from
   Point me;         ///< m, on the field
   Point ball;       ///< m, on the field
   double age = 0;   ///< s: since somebody saw the ball there

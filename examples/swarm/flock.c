@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * Control code of the swarm example: a robot that flocks with those it sees, by the three rules of Reynolds (Flocks,
+ * Control code of the swarm example: a robot flocks with those that it sees by the three rules of Reynolds (Flocks,
  * herds, and schools: a distributed behavioral model, SIGGRAPH 1987):
  *
  *   separation   away from those that are too near
  *   alignment    with the mean heading of the neighbours
  *   cohesion     towards the middle of the neighbours
  *
- * The sum of the three and of the present heading is the direction in which it wants to go. A robot with two driven
- * wheels cannot go sideways: it turns towards that direction, and drives the slower the farther it has to turn.
+ * The sum of the three and of the present heading is the wanted direction. A robot with two driven
+ * wheels cannot go sideways: it turns towards this direction, and drives more slowly the farther it has to turn.
  *
  * Frames follow ROS REP-103: x forward, y left, angles counter-clockwise. All units are SI.
  */
@@ -17,9 +17,9 @@
 #include "muro_controller.h"
 #include "muro_elementary.h" /* sines and the like with equal bits on every machine */
 
-/* As many neighbours as the device reports at most; more are cut off, the farthest first. */
+/* Greatest number of neighbours that the device reports; more are cut off, the farthest first. */
 enum { MAX_NEIGHBOURS = 32 };
-enum { ID, DISTANCE, BEARING, ELEVATION, HEADING, NUMBERS }; /* of a neighbour */
+enum { ID, DISTANCE, BEARING, ELEVATION, HEADING, NUMBERS }; /* numbers of a neighbour */
 
 static const muro_port inputs[] = {{"neighbours", "1, m, rad", NUMBERS* MAX_NEIGHBOURS, MURO_PORT_LIST}};
 static const muro_port outputs[] = {{"command.twist", "m/s, rad/s", 6, 0}}; /* vx vy vz wx wy wz */
@@ -50,7 +50,7 @@ static vector towards(double angle) {
   return v;
 }
 
-/* In the frame of the robot; its length is of no importance. */
+/* Returns the wanted direction in the frame of the robot; its length does not matter. */
 static vector wanted_direction(const double* neighbour, uint32_t count, const double* tunable) {
   vector separation = {0, 0}, alignment = {0, 0}, cohesion = {0, 0}, wanted = {1, 0};
   if (count == 0) return wanted;

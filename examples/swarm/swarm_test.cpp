@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The robots of the example come to one heading, stay together and keep their distance.
+// The robots of the example reach one heading, stay together and keep their distance.
 #include <gtest/gtest.h>
 
 #include <complex>
@@ -15,8 +15,8 @@ const std::string scenario = MURO_TEST_SOURCE_DIR "/examples/swarm/swarm.yaml";
 constexpr double diameter = 0.14;  // m, of bot.urdf
 
 struct Flock {
-  double order = 0;                        ///< |mean of exp(i heading)|: 1 when all look the same way (Vicsek 1995)
-  double nearest = 1e9, mean_nearest = 0;  ///< m: from a robot to the one next to it
+  double order = 0;                        ///< |mean of exp(i heading)|: 1 when all have the same heading (Vicsek 1995)
+  double nearest = 1e9, mean_nearest = 0;  ///< m: from a robot to its nearest neighbour
   double loneliest = 0;                    ///< m: the greatest of these distances
 };
 
@@ -42,7 +42,7 @@ BuiltScenario swarm(const std::vector<std::string>& overrides = {}) {
   return build(read_scenario(scenario, overrides), test::plugins());
 }
 
-/// Runs for so many seconds, and looks at the flock every second: nobody touches another one or gets lost.
+/// Runs for `seconds`, and checks the flock every second: no robot touches another one or gets lost.
 Flock fly(BuiltScenario& built, int seconds) {
   const World& world = built.simulation->world();
   Flock flock;

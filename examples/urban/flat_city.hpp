@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A city in the plane to test control code in, without the simulator: closed-form rays, unicycles, exact clearances.
+// A city in the plane for tests of control code without the simulator: closed-form rays, unicycles, exact clearances.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct Box {
   Pose2d pose;
   double half_x = 0, half_y = 0;  ///< m
 
-  /// Where a ray from `from` with the unit direction `to` enters (m); infinite when it misses. Slabs: Kay, Kajiya 1986.
+  /// Returns where a ray from `from` along `to` (unit) enters (m); infinite for a miss. Slabs: Kay, Kajiya 1986.
   double enter(const Point& from, const Point& to) const {
     const Point o = pose.to_local(from), ahead = pose.to_local({from.x + to.x, from.y + to.y});
     double near = 0, far = std::numeric_limits<double>::infinity();
@@ -52,7 +52,7 @@ struct Box {
     cut(o.y, ahead.y - o.y, half_y);
     return near <= far ? near : std::numeric_limits<double>::infinity();
   }
-  /// Distance (m) to a point; 0 inside.
+  /// Returns the distance (m) to a point; 0 inside.
   double distance(const Point& p) const {
     const Point l = pose.to_local(p);
     return std::hypot(std::max(0.0, std::abs(l.x) - half_x), std::max(0.0, std::abs(l.y) - half_y));
@@ -63,7 +63,7 @@ struct Box {
   }
 };
 
-/// Distance (m) of two rectangles: from a corner of one to the other, unless they overlap.
+/// Returns the distance (m) of two rectangles: from a corner of one to the other, unless they overlap.
 inline double distance(const Box& a, const Box& b) {
   double min = std::numeric_limits<double>::infinity();
   for (const Point& p : a.corners()) min = std::min(min, b.distance(p));
@@ -161,7 +161,7 @@ class City {
     }
   }
 
-  /// What a scanner at `p` may see.
+  /// Returns the boxes that a scanner at `p` may see.
   std::vector<const Box*> near(const Pose2d& p) const {
     std::vector<const Box*> found;
     for (const Box& b : boxes)

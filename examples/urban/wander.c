@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * Control code of the urban example: a vehicle that wanders through the streets of a city by its laser
- * scanner alone. It keeps to the right-hand side of the street, turns into side streets as chance has it,
+ * scanner alone. It keeps to the right-hand side of the street, turns into side streets at random,
  * drives around obstacles and turns on the spot in a dead end.
  *
  * Every step looks for a gap, in the manner of the vector field histogram (Borenstein, Koren: The vector
@@ -9,7 +9,7 @@
  *
  *   1. detect       the scan becomes at most one obstacle point per sector, in the frame of the vehicle
  *   2. prefer       a heading: along the wall on the right, or into a side street
- *   3. find a gap   the heading near that one along which the vehicle, as a disc, gets far
+ *   3. find a gap   the heading near the preferred one along which the vehicle, as a disc, gets far
  *   4. drive        towards it, as fast as the free distance allows; or turn on the spot when there is none
  *
  * Frames follow ROS REP-103: x forward, y left, angles counter-clockwise. All units are SI.
@@ -27,7 +27,7 @@
 
 enum { SECTORS = 120, HEADINGS = 41 };
 
-/* The vehicle as a disc: half its width, and a margin for what the scan does not show. */
+/* The vehicle as a disc: half its width, and a margin for objects that the scan does not show. */
 static const double radius = 0.30;           /* m */
 static const double horizon = 5.0;           /* m; longer free distances count as this */
 static const double min_free_distance = 1.0; /* m; below this a heading is blocked */
@@ -46,11 +46,11 @@ typedef struct {
   double speed;         /* m/s, at most */
   double laser_x;       /* m, the scanner in front of the centre of the vehicle */
   double period;        /* s between steps */
-  uint64_t rays;        /* of the scanner */
+  uint64_t rays;        /* number of rays of the scanner */
   uint64_t random;      /* state of the random numbers */
   double desired_turn;  /* at a side street: -1 right, 0 pass, +1 left */
   double desired_until; /* s */
-  double turn;          /* rad left to turn into a side street, 0 when on no such turn */
+  double turn;          /* rad remaining of a turn into a side street, else 0 */
   double spin;          /* -1 or +1 while turning on the spot, else 0 */
   double spun_angle;    /* rad, so far on the spot */
 } wander;
@@ -100,8 +100,8 @@ static void detect_obstacles(obstacles* seen, const double* const* in, uint32_t 
   }
 }
 
-/* The distance (m, at most the horizon) that the disc can move in the direction `heading` (rad). A point inside
- * of the disc blocks it only when it lies ahead. */
+/* Returns the distance (m, at most the horizon) that the disc can move in the direction `heading` (rad). A point
+ * inside the disc blocks it only when it lies ahead. */
 static double free_distance(const obstacles* seen, double heading) {
   double sine, cosine, distance = horizon;
   muro_sincos(heading, &sine, &cosine);
@@ -118,7 +118,7 @@ static double free_distance(const obstacles* seen, double heading) {
   return distance;
 }
 
-/* The straight wall on the right, by linear regression y = offset + slope * x. Returns 0 when there is none. */
+/* Finds the straight wall on the right, by linear regression y = offset + slope * x. Returns 0 when there is none. */
 static int find_right_wall(const obstacles* seen, double* direction, double* distance) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, first = HUGE_VAL, last = -HUGE_VAL;
   for (int i = 0; i < seen->count; ++i) {
@@ -139,7 +139,8 @@ static int find_right_wall(const obstacles* seen, double* direction, double* dis
 
 /* ---------------------------------------------------------------- heading */
 
-/* Uniform in [0, 1): splitmix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014). */
+/* Returns a uniform number in [0, 1): splitmix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators,
+ * 2014). */
 static double draw(wander* w) {
   uint64_t z = (w->random += 0x9E3779B97F4A7C15ull);
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
@@ -149,7 +150,7 @@ static double draw(wander* w) {
 
 static double clamp_magnitude(double value, double max) { return fmax(-max, fmin(max, value)); }
 
-/* The heading (rad) that it takes without obstacles. */
+/* Returns the heading (rad) for a way without obstacles. */
 static double preferred_heading(wander* w, const obstacles* seen, double time) {
   if (time >= w->desired_until) {
     const double dice = draw(w);
@@ -168,7 +169,7 @@ static double preferred_heading(wander* w, const obstacles* seen, double time) {
   return direction + muro_atan2(lane - distance, lane_lookahead); /* straight on without a wall */
 }
 
-/* The heading with the best trade-off of free distance and detour; `free` gets its free distance. */
+/* Returns the heading with the best trade-off of free distance and detour; `free` gets its free distance. */
 static double best_heading(const obstacles* seen, double preferred, double* free) {
   double best = clamp_magnitude(preferred, max_heading), best_score = -HUGE_VAL;
   for (int i = -1; i < HEADINGS; ++i) {

@@ -21,7 +21,7 @@ constexpr int steps_per_second = 10;
 constexpr double pi = M_PI;
 
 struct Trip {
-  double min_clearance = 1e9;  ///< m, to anything that stands
+  double min_clearance = 1e9;  ///< m, to all standing objects
   std::set<std::pair<int, int>> crossings;
 };
 
@@ -108,7 +108,7 @@ TEST(Wander, TurnsAroundInADeadEnd) {
 }
 
 TEST(Wander, ChoosesTheSideByChanceWhereItHasToTurnOnTheSpot) {
-  City alley;  // of 1.6 m
+  City alley;  // 1.6 m wide
   alley.boxes = {{{-6, 1.8, 0}, 14, 1}, {{-6, -1.8, 0}, 14, 1}, {{9, 0, 0}, 1, 4}};
   int left = 0, right = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

@@ -7,7 +7,7 @@
 namespace walking {
 namespace {
 
-/// Without what is tolerable.
+/// Returns the part of `x` that exceeds the tolerance.
 double beyond(double x, double tolerance) { return x - std::clamp(x, -tolerance, tolerance); }
 
 }  // namespace
@@ -15,7 +15,7 @@ double beyond(double x, double tolerance) { return x - std::clamp(x, -tolerance,
 double Balance::astray(const Reference& now, double w, const Body& body, const Attitude& attitude,
                        const std::array<Frame, 2>& soles, const BalanceSettings& b, double h) {
   const Side stance = now.stance;
-  // the foot that stands, or the middle of both: on the ground as planned, and in the trunk's frame by the joints
+  // the stance foot, or the middle of both feet: on the ground as planned, and in the trunk's frame by the joints
   Foothold ground = now.soles[stance].at;
   Vector foot = soles[stance].origin;
   if (now.both) {
@@ -32,7 +32,7 @@ double Balance::astray(const Reference& now, double w, const Body& body, const A
   muro_sincos(now.yaw, &s, &c);
   const double off = from_foot.x - (c * (planned[0] - ground.x) + s * (planned[1] - ground.y));
   const std::int64_t on = now.both ? -1 : std::int64_t(stance);
-  // a foot that begins to carry stands elsewhere than planned: that is no speed
+  // a foot that begins to carry is not where it was planned: this difference is no speed
   if (seen_ > 0 && on == stance_) drift_ += h / (b.smoothing + h) * ((off - off_) / h - drift_);
   off_ = off;
   stance_ = on;

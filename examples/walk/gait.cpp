@@ -36,8 +36,8 @@ Foothold Gait::middle() const {
   return {0.5 * (l.x + r.x), 0.5 * (l.y + r.y), 0.5 * (l.yaw + r.yaw)};
 }
 
-/// Of a step with this foot, from the other one. To the side and around, the foot on that side goes twice as far and
-/// the other one is put beside it, so that feet come no nearer than when they stand.
+/// Returns the step of this foot from the other one. To the side and around, the foot on that side goes twice as far
+/// and the other one is put beside it, so that feet come no nearer to each other than when they stand.
 Foothold Gait::stride(Side swing, const GaitSettings& g) const {
   const double s = sign_of(swing);
   return {g.period * speed_.forward, s * (g.foot_distance + 2 * g.period * std::max(0.0, s * speed_.left)),
@@ -58,7 +58,7 @@ void Gait::begin_step(const Velocity& command, const GaitSettings& g) {
   steps_in_place_ = speed_.is_zero() ? steps_in_place_ + 1 : 0;
 }
 
-/// The point about which the pendulum falls while both feet carry, so that its capture point comes to `xi` in time.
+/// Sets the point about which the pendulum falls while both feet carry, so that its capture point reaches `xi` in time.
 void Gait::begin_shift(Phase phase, double xi_x, double xi_y, const GaitSettings& g) {
   const double growth = muro_exp(g.w() * g.shift);
   zmp_x_ = (xi_x - x_.capture_point(g.w()) * growth) / (1 - growth);
@@ -127,7 +127,7 @@ void Gait::advance(double h, const Velocity& command, const GaitSettings& g) {
   steps_in_place_ = 0;
 }
 
-/// With the capture point in the middle, the centre of mass comes there.
+/// Moves the centre of mass to the middle, where the capture point is.
 void Gait::settle(double h, const GaitSettings& g) {
   const Foothold at = middle();
   const double w = g.w(), left = muro_exp(-w * h);

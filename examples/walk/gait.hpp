@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Footsteps for a linear inverted pendulum: where feet are put down so that the capture point stays ahead of them as in
-// a periodic walk (Englsberger et al., IROS 2011; Khadiv et al., IEEE T-RO 2020: step adjustment), and the way of the
-// centre of mass and of the swing foot between them.
+// Footsteps for a linear inverted pendulum. Feet are put down so that the capture point stays ahead of them as in a
+// periodic walk (Englsberger et al., IROS 2011; Khadiv et al., IEEE T-RO 2020: step adjustment). Between steps it gives
+// the ways of the centre of mass and of the swing foot.
 //
-// The pendulum falls about the centre of the stance sole and changes feet in the middle of double support, in an
-// instant. Where its capture point will be at that instant says where the swing foot goes: a capture point that has
-// gone farther than planned takes the foot along, so errors do not grow.
+// The pendulum falls about the centre of the stance sole. It changes feet in an instant, in the middle of double
+// support. The capture point at that instant decides where the swing foot goes: a capture point that is farther away
+// than planned takes the foot along, so errors do not grow.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace walking {
 
-/// Of the trunk, in its own axes: m/s forward, m/s to the left, rad/s to the left.
+/// Velocity of the trunk in its own axes: m/s forward, m/s to the left, rad/s to the left.
 struct Velocity {
   double forward = 0, left = 0, turn = 0;
 
@@ -23,10 +23,10 @@ struct Velocity {
 };
 
 struct GaitSettings {
-  double period = 0.35;         ///< s, of a step
+  double period = 0.35;         ///< s, duration of a step
   double double_support = 0.2;  ///< share of the period in which both feet are on the ground
-  double shift = 0.3;           ///< s, in which the weight is shifted before the first step and after the last one
-  double rise = 0.03;           ///< m, of the swing foot
+  double shift = 0.3;           ///< s, duration of the weight shift before the first step and after the last one
+  double rise = 0.03;           ///< m, height of the swing foot
   double foot_distance = 0.1;   ///< m, from sole to sole
   double com_height = 0.25;     ///< m, above the soles
   Velocity largest_step;        ///< m, m, rad, in one step
@@ -40,17 +40,17 @@ class Gait {
 
   /// Stands with the middle between both feet at `middle`.
   void stand(const Foothold& middle, const GaitSettings& g);
-  /// Goes on by `h` s. A command of zero ends the walk with feet side by side.
+  /// Advances by `h` s. A command of zero ends the walk with feet side by side.
   void advance(double h, const Velocity& command, const GaitSettings& g);
-  /// The capture point has been found to be so far ahead of where it should be (m): the swing foot makes up for it.
+  /// Takes the error of the capture point (m, ahead of its planned place): the swing foot compensates it.
   void find_astray(double ahead, const GaitSettings& g);
 
   Phase phase() const { return phase_; }
-  /// The foot that carries; while both do, the one that carries next or has carried last.
+  /// Returns the foot that carries. While both feet carry, it is the foot that carries next or carried last.
   Side stance() const { return stance_; }
   const Pendulum& along_x() const { return x_; }
   const Pendulum& along_y() const { return y_; }
-  double yaw() const { return yaw_; }  ///< of the trunk
+  double yaw() const { return yaw_; }  ///< yaw of the trunk
   SolePlace sole(Side side, const GaitSettings& g) const;
   Reference reference(const GaitSettings& g) const;
   const Foothold& target() const { return target_; }
@@ -60,9 +60,9 @@ class Gait {
   Foothold stride(Side swing, const GaitSettings& g) const;
   void begin_step(const Velocity& command, const GaitSettings& g);
   void end_step(const Velocity& command, const GaitSettings& g);
-  /// 0 with the weight on both feet, 1 in the middle of single support.
+  /// Returns 0 with the weight on both feet, 1 in the middle of single support.
   double lift(const GaitSettings& g) const;
-  /// Of the weight, on the left foot.
+  /// Returns the share of the weight on the left foot.
   double share(const GaitSettings& g) const;
   void begin_shift(Phase phase, double xi_x, double xi_y, const GaitSettings& g);
   void settle(double h, const GaitSettings& g);
@@ -70,10 +70,10 @@ class Gait {
   double swing_part(const GaitSettings& g) const;
 
   std::array<Foothold, 2> feet_;  ///< where they stand, or stood last
-  Foothold target_;               ///< where the swing foot goes
-  Foothold xi_;                   ///< the capture point when the swing foot begins to carry
-  double astray_ = 0;             ///< m, at the end of the step
-  Velocity speed_;                ///< what steps are made for
+  Foothold target_;               ///< place where the swing foot goes
+  Foothold xi_;                   ///< capture point when the swing foot begins to carry
+  double astray_ = 0;             ///< m, error of the capture point at the end of the step
+  Velocity speed_;                ///< velocity for which steps are made
   Pendulum x_, y_;
   double zmp_x_ = 0, zmp_y_ = 0;
   double yaw_ = 0, yaw_before_ = 0;

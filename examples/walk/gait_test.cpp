@@ -11,7 +11,7 @@ namespace {
 
 using namespace walking;
 
-/// m, s: of a periodic walk without double support.
+/// A periodic walk without double support: m, s.
 struct PeriodicWalk {
   double height, period, distance, stride;
 };
@@ -29,7 +29,7 @@ GaitSettings settings_of(const PeriodicWalk& walk) {
 
 constexpr PeriodicWalk placos{0.32, 0.38, 0.122, 0.08}, short_steps{0.30, 0.30, 0.086, 0.04};
 
-/// Steps until one begins.
+/// Advances until a step begins.
 void run_to_switch(Gait& gait, double h, const Velocity& v, const GaitSettings& g) {
   const Side before = gait.stance();
   while (gait.stance() == before) gait.advance(h, v, g);
@@ -121,7 +121,7 @@ TEST(Gait, TheSwingFootFollowsTheCapturePoint) {
   gait.find_astray(0.01, g);
   gait.advance(0.01, {0.1, 0, 0}, g);
   EXPECT_NEAR(gait.target().x - before, 0.01 * std::exp(g.w() * 0.2), 1e-9) << "0.2 s before it comes down";
-  // what the pendulum has lost is made up for by this step, and the walk goes on as before
+  // this step compensates what the pendulum has lost, and the walk goes on as before
   run_to_switch(gait, 0.01, {0.1, 0, 0}, g);
   const double first = gait.sole(gait.stance(), g).at.x;
   run_to_switch(gait, 0.01, {0.1, 0, 0}, g);

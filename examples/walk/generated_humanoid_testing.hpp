@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For tests: humanoids that differ from that of examples/models in lengths, masses and servos, and in what their joints
-// call 0 and forward, and the scenario in which they walk.
+// Test humanoids that differ from the one of examples/models in lengths, masses and servos, and in the zeros and
+// directions of their joints; and the scenario in which they walk.
 #pragma once
 
 #include <array>
@@ -10,14 +10,14 @@
 
 namespace muro::walk_test {
 
-/// A humanoid by its numbers: m, kg, N m/rad, N m s/rad. Axes of a leg that cross do so in hip and ankle.
+/// Numbers of a humanoid: m, kg, N m/rad, N m s/rad. The axes of a leg that cross do so in hip and ankle.
 struct Numbers {
-  double hip_y, hip_z;         ///< of the left hip, in the frame of the trunk
-  double thigh, shin, ankle;   ///< lengths; of the ankle above the sole
+  double hip_y, hip_z;         ///< place of the left hip, in the frame of the trunk
+  double thigh, shin, ankle;   ///< lengths; ankle: height above the sole
   double sole_x, sole_y;       ///< centre of the left sole, from the ankle
   std::array<double, 2> foot;  ///< length and width
   double trunk, hip, thigh_mass, shin_mass, ankle_mass, foot_mass, arm_mass;
-  double trunk_com;      ///< of the trunk and head, above the trunk's origin
+  double trunk_com;      ///< centre of mass of trunk and head, above the trunk's origin
   double shoulder, arm;  ///< height of the shoulders, length of an arm that hangs down
   double stiffness, damping;
   double knee_zero;  ///< bend of the knee where its joint is at 0
@@ -88,7 +88,7 @@ inline std::string text(std::initializer_list<double> values) {
   return all;
 }
 
-/// An even box of this size with its centre here; only feet touch.
+/// Returns a link that is a homogeneous box with its centre at `at`. `touches`: it collides with other bodies.
 inline std::string link(const std::string& name, double mass, std::array<double, 3> size, std::array<double, 3> at,
                         bool touches) {
   const auto [x, y, z] = size;
@@ -137,7 +137,7 @@ inline std::string urdf(const Numbers& n) {
   return all + "</robot>\n";
 }
 
-/// The scenario: another robot is another model and other numbers.
+/// Writes the scenario of a robot, with its model and its numbers, and returns its path.
 inline std::string scenario_of(const test::ScratchFolder& folder, const Numbers& n, const std::string& motion,
                                const std::string& tunables) {
   const double bend = 0.9, leg = 0.96 * (n.thigh + n.shin);  // m, from hip to ankle
@@ -145,7 +145,7 @@ inline std::string scenario_of(const test::ScratchFolder& folder, const Numbers&
   const auto set = [](const char* name, double value) {
     return std::string(name) + "=" + std::to_string(value) + ", ";
   };
-  // where a leg has its mass, below the hip
+  // distance of the mass of a leg below the hip
   const double below = (n.thigh_mass * 0.5 * n.thigh + n.shin_mass * (n.thigh + 0.5 * n.shin) +
                         (n.ankle_mass + n.foot_mass) * (n.thigh + n.shin)) /
                        n.leg();

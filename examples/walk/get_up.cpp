@@ -42,7 +42,7 @@ void GetUp::advance(Progress& progress, double h) const {
 
 Posture GetUp::straight() const { return posture_of({0, 1, 0, 0, 0, along}); }
 
-/// The knee is ahead of the line from hip to ankle.
+/// Puts the knee ahead of the line from hip to ankle.
 Posture GetUp::posture_of(const KeyPose& pose) const {
   const double d = pose.ankle_distance * (thigh_ + shin_);
   const double bend =

@@ -10,14 +10,14 @@
 namespace muro::walk_test {
 namespace {
 
-/// Within so many seconds.
+/// Expects a walk within `seconds`.
 void expect_to_walk(Walker& walker, double seconds) {
   for (int k = 0; k < std::lround(seconds / 0.4) && walker.phase() != 2; ++k) walker.run(0.4);
   EXPECT_EQ(walker.phase(), 2) << "it walks";
   EXPECT_GT(walker.pose().position.z(), 0.245);
 }
 
-/// Pushed over forwards or backwards by 3 N s, it lies; then it stands and walks again.
+/// Pushes it over forwards or backwards by 3 N s. It lies; then it stands and walks again.
 void expect_getting_up(const std::string& motion, double direction) {
   SCOPED_TRACE(motion);
   Walker walker({"robots.walker.motion.use=motion." + motion});
@@ -68,7 +68,7 @@ TEST(GetUp, OneWithShorterLegsTakesTheSamePosesByItsNumbers) {
   }
 }
 
-/// From belly and back, 12 starts each, or every `stride`-th of these, on a floor of friction 0.6.
+/// Expects it to get up from belly and back, 12 starts each, or every `stride`-th of these, on a floor of friction 0.6.
 void expect_getting_up_where_it_slides(const std::string& motion, int stride) {
   SCOPED_TRACE(motion);
   for (int i = 0; i < 24; i += stride) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What errors of its IMU the walk can stand: those of real parts by their data sheets, and biases beyond them, which
-// fell it.
+// Errors of its IMU that the walk tolerates: those of real parts by their data sheets; and larger biases, with which
+// the robot falls.
 #include <gtest/gtest.h>
 
 #include "walk_testing.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double falls_below = 0.2;  // m: its trunk walks at 0.255 m
 
-/// An MTi-1 whose gyroscope has a further error, such as "bias: [0, 0.1, 0]" (rad/s).
+/// Returns overrides with an MTi-1 whose gyroscope has a further error, such as "bias: [0, 0.1, 0]" (rad/s).
 std::vector<std::string> with_gyro(const std::string& error, const std::string& numbers = "forward=0.1",
                                    const std::string& motion = "articulated") {
   const std::string part = "={use: sensor.error, on: imu, part: mti1, of: ";
@@ -19,7 +19,7 @@ std::vector<std::string> with_gyro(const std::string& error, const std::string& 
           "robots.walker.acceleration_error" + part + "linear_acceleration}"};
 }
 
-/// m of way in so many seconds, and the least height of the trunk on it.
+/// Returns the way (m) in `seconds`, and the least height of the trunk.
 std::pair<double, double> walk(const std::vector<std::string>& overrides, double seconds) {
   Walker walker(overrides);
   walker.run(seconds);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The joints of one robot: in which sense each turns, where its zero is, and their order in ports.
+// The joints of one robot: the sense in which each turns, its zero, and their order in ports.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace walking {
 
-/// Shoulder pitch and roll, elbow; of the left arm. Of the right arm, roll and elbow turn the other way.
+/// Shoulder pitch and roll, elbow of the left arm. Roll and elbow of the right arm turn the other way.
 using ArmAngles = std::array<double, 3>;
 
 struct Posture {
@@ -20,13 +20,13 @@ struct Posture {
 };
 
 /// Ports hold the left leg (hip yaw, roll, pitch, knee, ankle pitch, roll), the right leg, then the left and the right
-/// arm (shoulder pitch, shoulder roll, elbow) where there are so many, and any others, which are kept at 0.
+/// arm (shoulder pitch, shoulder roll, elbow) if there are so many, and any other joints, which are kept at 0.
 class Joints {
  public:
   static constexpr std::size_t legs_end = 2 * leg_joints, arms_end = legs_end + 6, most = 32;
 
-  /// `directions`: one + or - a joint, in the order of the port; - where it turns against REP-103. `zeros`: numbers
-  /// with commas, rad, what the joint reads with the leg straight. Both may be short: the rest is + and 0. Throws
+  /// `directions`: one + or - for each joint, in the order of the port; - when it turns against REP-103. `zeros`:
+  /// numbers with commas, rad, the joint's reading with the leg straight. Missing entries are + and 0. Throws
   /// std::invalid_argument.
   Joints(std::size_t count, std::string_view directions, std::string_view zeros);
 

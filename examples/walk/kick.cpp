@@ -8,13 +8,13 @@
 namespace walking {
 namespace {
 
-/// m, m/s, m/s^2, along one axis.
+/// Motion along one axis: m, m/s, m/s^2.
 struct Motion {
   double position, velocity, acceleration;
 };
 
-/// Of the way from `a` and its velocity to rest at `to` in `duration` s, `t` s after it has begun: the polynomial of
-/// fifth degree that begins and ends without acceleration.
+/// Returns the motion `t` s after its beginning, from `a` and its velocity to rest at `to` in `duration` s: the
+/// polynomial of fifth degree that begins and ends without acceleration.
 Motion come_to_rest(const Pendulum& a, double to, double duration, double t) {
   const double T = duration, s = std::clamp(t / T, 0.0, 1.0), way = to - a.position, v = a.velocity * T;
   const double s2 = s * s, s3 = s2 * s;
@@ -30,7 +30,7 @@ void Kick::begin(const Reference& from, Side foot, double speed, const KickSetti
   begun_ = 1;
   from_ = from;
   foot_ = foot;
-  constexpr double peak = 1.875;  // of the slope of smooth()
+  constexpr double peak = 1.875;  // greatest slope of smooth()
   forward_ = peak * (k.back + k.forward) / std::fmax(speed, slowest);
 }
 
@@ -54,7 +54,7 @@ SolePlace Kick::swing_sole(const KickSettings& k) const {
   const double forward = std::clamp((time_ - forward_at(k)) / forward_, 0.0, 1.0);
   const double down = std::clamp((time_ - return_at(k)) / k.swing, 0.0, 1.0);
   const double ahead = -k.back * smooth(back) + (k.back + k.forward) * smooth(forward) - k.forward * smooth(down);
-  // it rises before it goes back, and is put down when it has come back
+  // the foot rises before it goes back, and is put down when it has come back
   const double height = smooth(std::min(1.0, 2 * back)) * smooth(std::min(1.0, 2 - 2 * down));
   return {from_.soles[foot_].at.beside(ahead, 0), k.rise * height};
 }

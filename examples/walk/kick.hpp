@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A kick from the stand: the centre of mass goes over one foot, the other one is taken back and goes forward fast,
-// through the place where a ball lies before it, and comes back to where it was; then the weight is on both again.
+// A kick from the stand. The centre of mass moves over one foot. The other foot is taken back, moves forward fast
+// through the place of a ball in front of it, and returns to its place. Then both feet carry the weight again.
 //
-// The way of the centre of mass is a polynomial, slow enough that the ZMP stays below the feet, and while one foot
-// carries the centre of mass rests above it: trunk and leg move against each other.
+// The centre of mass moves by a polynomial, slowly enough that the ZMP stays below the feet. While one foot carries,
+// the centre of mass rests above it: trunk and leg move against each other.
 #pragma once
 
 #include "reference.hpp"
@@ -11,12 +11,12 @@
 namespace walking {
 
 struct KickSettings {
-  double shift = 0.5;        ///< s, in which the weight goes over one foot, and back
-  double swing = 0.4;        ///< s, in which the foot is taken back; and in which it is put down
-  double back = 0.075;       ///< m, by which it is taken back
-  double forward = 0.143;    ///< m, ahead of where it stood, at the end of its way forward
-  double rise = 0.057;       ///< m, of the sole
-  double outward = -0.008;   ///< m, from the centre of the sole that carries: where the centre of mass goes
+  double shift = 0.5;        ///< s, duration of the weight shift over one foot, and back
+  double swing = 0.4;        ///< s, duration of taking the foot back, and of putting it down
+  double back = 0.075;       ///< m, way back
+  double forward = 0.143;    ///< m, end of the way forward, ahead of its place in the stand
+  double rise = 0.057;       ///< m, height of the sole
+  double outward = -0.008;   ///< m, outwards from the centre of the carrying sole: place of the centre of mass
   double com_height = 0.25;  ///< m, above the soles
 };
 
@@ -24,8 +24,8 @@ class Kick {
  public:
   static constexpr double slowest = 0.05;  ///< m/s
 
-  /// From where the robot stands on both feet, with this foot; `speed`, m/s, is the largest of the sole on its way
-  /// forward.
+  /// Begins a kick with this foot, from where the robot stands on both feet. `speed`, m/s: the greatest speed of the
+  /// sole on its way forward.
   void begin(const Reference& from, Side foot, double speed, const KickSettings& k);
   void advance(double h) { time_ += h; }
 
@@ -35,7 +35,7 @@ class Kick {
   Reference reference(const KickSettings& k) const;
 
  private:
-  /// s, since the kick has begun: when one of its parts begins.
+  /// Time at which a part of the kick begins, s since the beginning of the kick.
   double forward_at(const KickSettings& k) const { return k.shift + k.swing; }
   double return_at(const KickSettings& k) const { return forward_at(k) + forward_; }
   double shift_back_at(const KickSettings& k) const { return return_at(k) + k.swing; }
@@ -44,7 +44,7 @@ class Kick {
 
   Reference from_;
   double time_ = 0;     // s
-  double forward_ = 0;  // s, of the way forward
+  double forward_ = 0;  // s, duration of the way forward
   Side foot_ = left_side;
   std::int64_t begun_ = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Kicks against what they are made for: where soles and centre of mass go by themselves, and how far a ball rolls and
-// whether the robot stays on its feet where forces move both.
+// Kicks against their purpose: the ways of soles and centre of mass alone; and how far a ball rolls and whether the
+// robot stays on its feet when forces move both.
 #include "kick.hpp"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ TEST(Kick, SwingsItsSoleAsFastAsItIsToldAndPutsItBack) {
   }
 }
 
-/// The pendulum's ZMP, x - x''/w^2, by differences of where the centre of mass is.
+/// Computes the pendulum's ZMP, x - x''/w^2, by differences of the places of the centre of mass.
 TEST(Kick, KeepsItsZmpBelowTheFeet) {
   const walking::KickSettings k;
   const double h = 1e-3, w2 = 9.81 / k.com_height;
@@ -68,7 +68,7 @@ TEST(Kick, KeepsItsZmpBelowTheFeet) {
   EXPECT_NEAR(kick.reference(k).y.position, 0, 1e-12) << "the weight is on both feet again";
 }
 
-/// One that kicks at 3 s, and the ball of examples/soccer before a foot, from the middle of its toe.
+/// A robot that kicks at 3 s, and the ball of examples/soccer in front of a foot, from the middle of its toe.
 struct Player {
   std::string motion = "articulated", imu = "mti1", kicks = "foot=1, speed=3, every=100";
   double ahead = 0.12, left = 0;  // m
@@ -93,7 +93,7 @@ Vec3 ball_of(Walker& walker) {
   return w.value(w.find_robot("ball")->base(), keys::pose).position;
 }
 
-/// How far the ball goes, m ahead and m to the left.
+/// Returns the way of the ball, m ahead and m to the left.
 Vec3 way_of_ball(const Player& p) {
   Walker walker(scene_of(p));
   const Vec3 before = ball_of(walker);
@@ -162,7 +162,7 @@ TEST(Kick, SlowAtOtherMotions) {
       expect_a_kick({.motion = motion, .imu = "mpu6050", .kicks = kicks}, motion == std::string("ode") ? 1.1 : 1.4);
 }
 
-/// 20 kicks, and then it still stands where it stood.
+/// Expects 20 kicks, after which the robot still stands in its place.
 void expect_twenty(const std::string& motion, const std::string& imu, const std::string& foot) {
   SCOPED_TRACE(motion + " " + imu + " " + foot);
   Walker walker(scene_of({.motion = motion, .imu = imu, .kicks = foot + ", speed=3, every=3", .ahead = 5}));
@@ -179,7 +179,7 @@ TEST(Kick, SlowTwentyInARowWithoutAFall) {
   for (const char* motion : {"mujoco", "bullet", "simplified"}) expect_twenty(motion, "mpu6050", "alternate=1");
 }
 
-/// One with OP2's lengths and masses, by these numbers alone.
+/// A robot with OP2's lengths and masses, by its numbers alone.
 TEST(Kick, SlowOfOneLikeOp2) {
   for (const char* motion : {"motion.articulated", "motion.mujoco"}) {
     SCOPED_TRACE(motion);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Has a robot that walks by the library `walk` kick again and again, as a soccer player's code would: it writes
+// Makes a robot that walks by the library `walk` kick again and again, as the code of a soccer player would. It writes
 // `walk.kick`, a property of its own that `walk` reads.
 #include <cmath>
 

@@ -6,7 +6,7 @@
 namespace walking {
 namespace {
 
-/// From the axis at its upper end to that at its lower end, seen along y: how long, and the pitch at which it hangs.
+/// A bone between the axes at its upper and its lower end, seen along y: length, and the pitch at which it hangs.
 struct Bone {
   double length, pitch;
 };
@@ -50,16 +50,16 @@ LegAngles Leg::angles_for(const Frame& sole) const {
   LegAngles q;
   const Vector hip = mirrored(d_.hip);
   const Vector roll_axis = sole.origin - sole.rotation * Vector{d_.sole_x, side_ * d_.sole_y, -d_.sole_z};
-  // Only ankle roll moves the hip across the pitch axes, which all are parallel: it is leg_y inwards of them.
+  // Only ankle roll moves the hip across the pitch axes, which are all parallel: the hip is leg_y inwards of them.
   const Vector up = sole.rotation.inverse() * (hip - roll_axis);
   const double across = std::sqrt(up.y * up.y + up.z * up.z);
   q[ankle_roll] = muro_atan2(up.y, up.z) + arc_sine(side_ * d_.leg_y / std::max(across, 1e-9));
-  // What is left of the foot's rotation is yaw, roll, and the sum of the three pitches.
+  // The remaining rotation of the foot is yaw, roll, and the sum of the three pitches.
   const Rotation ankle = sole.rotation * about_x(-q[ankle_roll]);
   q[hip_roll] = arc_sine(ankle.y.z);
   q[hip_yaw] = muro_atan2(-ankle.y.x, ankle.y.y);
   const double pitch = muro_atan2(-ankle.x.z, ankle.z.z);
-  // Hip and knee are those of an arm of two bones in the plane of the leg.
+  // Hip and knee are the joints of an arm of two bones in the plane of the leg.
   const Rotation roll = about_z(q[hip_yaw]) * about_x(q[hip_roll]);
   const Vector hip_at = hip + roll * Vector{d_.hip_pitch_x, side_ * d_.leg_y, d_.hip_pitch_z};
   const Vector down = roll.inverse() * (roll_axis + ankle * Vector{0, 0, d_.ankle_z} - hip_at);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The leg's kinematics against those of the model, and its inverse against itself.
+// Kinematics of the leg against those of the model, and its inverse against itself.
 #include "leg.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ std::vector<double> defaults() {
   return values;
 }
 
-/// With all digits.
+/// Returns a number with all digits.
 std::string in_full(double value) {
   std::ostringstream text;
   text << std::setprecision(17) << value;
@@ -34,7 +34,7 @@ double difference(const Frame& a, const Frame& b) {
                    (a.rotation.y - b.rotation.y).norm(), (a.rotation.z - b.rotation.z).norm()});
 }
 
-/// Angles within ranges of the humanoid in which the hip is above the sole.
+/// Returns angles within ranges of the humanoid in which the hip is above the sole.
 LegAngles random_angles(std::mt19937& random) {
   const auto between = [&](double from, double to) { return std::uniform_real_distribution<>(from, to)(random); };
   return {between(-0.6, 0.6), between(-0.5, 0.5), between(-1.2, 0.4),

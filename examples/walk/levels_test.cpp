@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A humanoid that walks goes on when another motion takes it over, in whatever phase of a step it is.
+// A walking humanoid goes on when another motion takes it over, in any phase of a step.
 #include <gtest/gtest.h>
 
 #include "walk_testing.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double period = 0.36;  // s, of a step
 
-/// At level 0 by forces, at level 1 by kinematics.
+/// Returns a motion with two levels: 0 by forces, 1 by kinematics.
 std::string levels(const std::string& by_forces, const std::string& start) {
   return "robots.walker.motion={levels: {forces: {use: motion." + by_forces +
          ", rate: 1000, joints: position, interpolate: 0.008, stiffness: 24.9, damping: 0.68}, "
@@ -17,7 +17,7 @@ std::string levels(const std::string& by_forces, const std::string& start) {
          start + "}";
 }
 
-/// Handed over `part` of two steps (left and right) after it has walked for a while, it goes on for 10 s.
+/// Hands it over after a while of walking, at `part` of two steps (left and right), and expects it to walk on for 10 s.
 void expect_to_walk_on(const std::string& by_forces, bool to_biped, double part, double speed = 0.1,
                        double largest_tilt = 0.16) {
   SCOPED_TRACE(by_forces + (to_biped ? " to biped, " : " from biped, ") + std::to_string(part));
@@ -56,7 +56,7 @@ TEST(Levels, SlowTwentyPhasesOfAFasterStep) {
   for (int k = 0; k < 20; ++k) expect_to_walk_on("articulated", true, 0.05 * k, 0.2, 0.3);
 }
 
-/// Handed over while it lies and gets up, it is put on its feet, and walks when it has done what it does to get up.
+/// A robot that is handed over while it lies or gets up is put on its feet. It walks when getting up has ended.
 TEST(Levels, OneThatGetsUpWalksAfterIt) {
   for (const double time : {0.5, 2.0, 5.0}) {
     SCOPED_TRACE(time);
@@ -73,7 +73,7 @@ TEST(Levels, OneThatGetsUpWalksAfterIt) {
   }
 }
 
-/// There and back each second.
+/// Hands it over there and back each second.
 TEST(Levels, HandedOverAgainAndAgainItWalksOn) {
   Walker walker({levels("articulated", "forces")});
   walker.run(6);

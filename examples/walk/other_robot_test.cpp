@@ -11,7 +11,7 @@
 namespace muro::walk_test {
 namespace {
 
-/// Walks for some seconds and looks how far, after 3 s in which it gets ready and the first steps are taken.
+/// Checks the way of 5 s, after 3.5 s in which the robot gets ready and takes its first steps.
 void expect_walk(const Numbers& n, const std::string& motion, const std::string& tunables, double speed) {
   SCOPED_TRACE(motion);
   const test::ScratchFolder folder;
@@ -73,7 +73,7 @@ robots:
   EXPECT_EQ(walker.touched(), "");
 }
 
-/// The humanoid with one drive for both hip yaws, as NAO has it: the right one follows the left one.
+/// The humanoid with one drive for both hip yaws, like NAO: the right joint follows the left one.
 TEST(OtherRobots, OneWhoseHipYawsTurnTogetherWalks) {
   const std::string models = MURO_TEST_SOURCE_DIR "/examples/models/";
   std::string model = test::text_of(models + "humanoid.urdf");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Steers a robot that walks by the library `walk`, as a soccer player's code would: straight on, a quarter turn to the
-// left, and so on. It writes `walk.command`, a property of its own that `walk` reads.
+// Steers a robot that walks by the library `walk`, as the code of a soccer player would: straight on, a quarter turn to
+// the left, and so on. It writes `walk.command`, a property of its own that `walk` reads.
 #include <cmath>
 
 #include "muro_controller.hpp"

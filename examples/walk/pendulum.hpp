@@ -15,19 +15,19 @@ struct Pendulum {
   double position = 0, velocity = 0;  ///< m, m/s
 
   double capture_point(double w) const { return position + velocity / w; }
-  /// After `t` s about the point `p`.
+  /// Returns the state after `t` s about the point `p`.
   Pendulum after(double t, double p, double w) const {
     const double c = muro_cosh(w * t), s = muro_sinh(w * t);
     return {p + (position - p) * c + velocity / w * s, (position - p) * w * s + velocity * c};
   }
 };
 
-/// The capture point `t` s later about `p`.
+/// Returns the capture point `t` s later about `p`.
 inline double capture_point_after(double xi, double t, double p, double w) { return p + (xi - p) * muro_exp(w * t); }
 
-/// How far the capture point is ahead of the foot when that begins to carry, in a walk of which each step takes `t` s,
-/// and feet are put down by `next` and `after` m from each other in turns: what is left with each foot at the same
-/// place in its step, by xi - foot = a:  a e^(w t) = next + b,  b e^(w t) = after + a.
+/// Returns how far the capture point is ahead of a foot that begins to carry. Each step of the walk takes `t` s, and
+/// feet are put down by `next` and `after` m from each other in turns. In a periodic walk, with xi - foot = a or b in
+/// turns, a e^(w t) = next + b and b e^(w t) = after + a.
 inline double capture_point_offset(double next, double after, double t, double w) {
   const double growth = muro_exp(w * t);
   return (next * growth + after) / (growth * growth - 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What pushes the humanoid bears while it walks.
+// Pushes that the humanoid withstands while it walks.
 #include <gtest/gtest.h>
 
 #include "walk_testing.hpp"
@@ -7,7 +7,7 @@
 namespace muro::walk_test {
 namespace {
 
-/// Four pushes of 0.1 s, N s ahead and to the left, each at another phase of a step.
+/// Returns whether it withstands four pushes of 0.1 s, N s ahead and to the left, each at another phase of a step.
 bool bears(double ahead, double left, const std::string& numbers) {
   Walker walker({tunables(numbers)});
   walker.run(5);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where soles and centre of mass are to be at one instant, whatever it is that asks for it: a walk or a kick.
+// Wanted places of soles and centre of mass at one instant, for a walk or a kick.
 //
-// Everything lies in a frame on the ground that begins where the robot stands: x forward, y left.
+// Everything is in a frame on the ground that begins where the robot stands: x forward, y left.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace walking {
 struct Foothold {
   double x = 0, y = 0, yaw = 0;
 
-  /// The place that is so far ahead and to the left of this one, turned by so much.
+  /// Returns the place that is `ahead` and `left` (m) of this one, turned by `turn` (rad).
   Foothold beside(double ahead, double left, double turn = 0) const {
     double s, c;
     muro_sincos(yaw, &s, &c);
@@ -27,7 +27,7 @@ struct Foothold {
 enum Side : std::int64_t { left_side, right_side };
 inline Side other(Side side) { return side == left_side ? right_side : left_side; }
 
-/// From 0 to 1 for t from 0 to 1, with speed and acceleration 0 at both ends.
+/// Rises from 0 to 1 for t from 0 to 1, with speed and acceleration 0 at both ends.
 inline double smooth(double t) { return t * t * t * (10 + t * (6 * t - 15)); }
 
 /// A sole above the ground.
@@ -37,18 +37,18 @@ struct SolePlace {
 };
 
 struct Reference {
-  Pendulum x, y;                                  ///< of the centre of mass
-  double acceleration_x = 0, acceleration_y = 0;  ///< m/s^2, of it
-  double yaw = 0;                                 ///< of the trunk
+  Pendulum x, y;                                  ///< centre of mass
+  double acceleration_x = 0, acceleration_y = 0;  ///< m/s^2, of the centre of mass
+  double yaw = 0;                                 ///< yaw of the trunk
   std::array<SolePlace, 2> soles;                 ///< left, right
-  double left_share = 0.5;                        ///< of the weight, on the left foot
-  Side stance = left_side;                        ///< the foot that carries if one does
-  std::int64_t both = 1;                          ///< feet are on the ground; no bool: bytes between would be saved
+  double left_share = 0.5;                        ///< share of the weight on the left foot
+  Side stance = left_side;                        ///< foot that carries if only one does
+  std::int64_t both = 1;                          ///< both feet are on the ground; no bool: padding would be saved
 
   bool carries(Side side) const { return both != 0 || side == stance; }
 };
 
-/// Of the weight, on the left foot, with the ZMP at this place and both feet on the ground.
+/// Returns the share of the weight on the left foot, with the ZMP at this place and both feet on the ground.
 inline double share_of_left(double zmp_x, double zmp_y, const Foothold& left, const Foothold& right) {
   const double dx = left.x - right.x, dy = left.y - right.y;
   return std::clamp(((zmp_x - right.x) * dx + (zmp_y - right.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);

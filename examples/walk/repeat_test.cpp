@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The same bits on any number of threads, from a snapshot and after a reset.
+// Equal bits on any number of threads, from a snapshot and after a reset.
 #include <gtest/gtest.h>
 
 #include "walk_testing.hpp"

@@ -12,7 +12,7 @@ namespace {
 
 double whole_steps(double seconds, double h) { return std::fmax(1, std::round(seconds / h)) * h; }
 
-/// Of tilt, and behind it of rate.
+/// Returns the gains of tilt and of rate, which follow each other in `t`.
 Gains gains_of(const double* t, Tunable tilt) { return {t[t_feedback] * t[tilt], t[t_feedback] * t[tilt + 1]}; }
 
 LegDimensions leg_of(const double* t) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The numbers of a robot and of its walk, which the scenario sets as tunables. Defaults are those of
+// Numbers of a robot and of its walk, which the scenario sets as tunables. The defaults fit
 // examples/models/humanoid.urdf.
 #pragma once
 
@@ -94,7 +94,7 @@ inline constexpr muro_tunable tunable_table[] = {
 };
 
 struct Settings {
-  /// `t`: the values of the tunables, by their place. Times are whole steps of `h` s.
+  /// `t`: values of the tunables, in their order. Times become whole steps of `h` s.
   Settings(const double* t, double h);
 
   Velocity command;

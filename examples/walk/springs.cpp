@@ -7,11 +7,11 @@
 namespace walking {
 namespace {
 
-constexpr double smoothing = 0.1;  // s, of the share
+constexpr double smoothing = 0.1;  // s, time constant of the share
 
 }  // namespace
 
-/// Dry friction takes its part: half counts as all.
+/// Counts half of the sag as all of it, since dry friction carries a part.
 void Springs::feel_at_rest(const BothLegs& sag, const BothLegs& behind, double h) {
   double along = 0, all = 0;
   for (std::size_t side = 0; side < 2; ++side)
@@ -25,12 +25,12 @@ void Springs::feel_at_rest(const BothLegs& sag, const BothLegs& behind, double h
   given_ = double(gives_way_);
 }
 
-/// Without the ankles, which feedback turns. Joints that meet their targets are soon known, before feedback does harm;
-/// springs come back smoothly.
+/// Leaves out the ankles, which feedback turns. Joints that meet their targets are found soon, before feedback does
+/// harm; springs come back smoothly.
 void Springs::feel(const BothLegs& sag, const BothLegs& behind, const Reference& now, double h) {
-  constexpr double meets = 0.04;   // of the largest sag: a joint that is less behind meets its target
-  constexpr double soon = 0.02;    // s, for which all of them do
-  constexpr double memory = 0.05;  // s, of `given_`
+  constexpr double meets = 0.04;   // share of the largest sag: a joint that is less behind meets its target
+  constexpr double soon = 0.02;    // s, for which all joints meet their targets
+  constexpr double memory = 0.05;  // s, time constant of `given_`
   double along = 0, all = 0, largest_sag = 0, largest_behind = 0;
   for (const Side side : {left_side, right_side}) {
     if (!now.carries(side)) continue;

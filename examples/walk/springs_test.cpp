@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether servos give way is found out from the angles alone.
+// The robot finds out from the angles alone whether servos give way.
 #include "springs.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ BothLegs times(double share) {
   return all;
 }
 
-/// On the left foot.
+/// Returns a stand on the left foot.
 Reference one_leg() {
   Reference now;
   now.both = 0;
@@ -29,7 +29,7 @@ Reference one_leg() {
 TEST(Springs, StayAsTheyAreWhileJointsSwingAboutWhatTheyCarry) {
   Springs springs;
   for (int k = 0; k < 2000; ++k) {
-    // as measured at 0.25 m/s by forces: 0.2 to 1.7 of it, in a step of 0.36 s
+    // as measured at 0.25 m/s by forces: 0.2 to 1.7 of the sag, in a step of 0.36 s
     springs.feel(times(1), times(0.95 + 0.75 * std::sin(2 * M_PI * k * h / 0.36)), one_leg(), h);
     ASSERT_EQ(springs.share(), 1) << k;
   }

@@ -21,7 +21,7 @@ struct Vector {
   double norm() const { return std::sqrt(dot(*this)); }
 };
 
-/// Columns are the axes of the turned frame.
+/// A rotation. Its columns are the axes of the turned frame.
 struct Rotation {
   Vector x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 

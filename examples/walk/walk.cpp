@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Walks on two legs, as fast as it is told, kicks when it is told, and gets up when it has fallen. Joints, gyroscope
-// and accelerometer are read where there are any.
+// Walks on two legs at a commanded velocity, kicks on command, and gets up after a fall. Joints, gyroscope and
+// accelerometer are read if there are any.
 //
-// A gait of footsteps and a pendulum (gait.hpp) or a kick (kick.hpp) says where soles and centre of mass are; the body
-// (body.hpp) says by which angles, and by how much springs of servos give way; balance (balance.hpp) corrects ankles,
-// hips and the places of feet by what the sensors say. All numbers of the robot are tunables (settings.hpp).
+// A gait of footsteps and a pendulum (gait.hpp) or a kick (kick.hpp) gives the places of soles and centre of mass. The
+// body (body.hpp) gives the angles for them, and how much springs of servos give way. Balance (balance.hpp) corrects
+// ankles, hips and the places of feet by the sensors. All numbers of the robot are tunables (settings.hpp).
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -31,7 +31,7 @@ using namespace walking;
 enum Input { positions, angular_velocity, linear_acceleration, command, kick_command };
 enum Output { targets, phase, odometry };
 
-/// What the robot is at, as `walk.phase` says.
+/// Mode of the robot, as in `walk.phase`.
 enum Mode : std::int64_t { preparing, standing, walking_on, falling, getting_up, kicking };
 
 class Walk {
@@ -83,14 +83,14 @@ class Walk {
     o[0] = state_.gait.along_x().position, o[1] = state_.gait.along_y().position, o[2] = state_.gait.yaw();
   }
 
-  static constexpr double fallen = 0.6;    // of the trunk's z axis along "up"
-  static constexpr double lie_down = 1.0;  // s, until a robot that falls lies
-  static constexpr double settle = 0.6;    // s, until one that has come to its posture is at rest
+  static constexpr double fallen = 0.6;    // least component of the trunk's z axis along "up"
+  static constexpr double lie_down = 1.0;  // s, after which a falling robot lies
+  static constexpr double settle = 0.6;    // s, after which a robot in its posture is at rest
 
  private:
-  /// All that one step leaves for the next.
+  /// State that one step leaves for the next.
   struct State {
-    double time = 0;  // s, in the mode
+    double time = 0;  // s, since the beginning of the mode
     Mode mode = preparing;
     std::int64_t calibrated = 0;
     double heading = 0;  // rad, as commanded
@@ -98,9 +98,9 @@ class Walk {
     Attitude attitude;
     Balance balance;
     Kick kick;
-    double kick_speed = 0;  // m/s, of the one that is asked for
+    double kick_speed = 0;  // m/s, of the requested kick
     Side kick_side = left_side;
-    std::int64_t kick_foot = 0;  // as `walk.kick` has said last
+    std::int64_t kick_foot = 0;  // last foot in `walk.kick`
     GetUp::Progress get_up;
     BothLegs measured{}, plan{}, sag{};
     Springs springs;
@@ -115,7 +115,7 @@ class Walk {
   void load(Loader& from) { state_ = from.get<State>(); }
 
  private:
-  /// A leg that is straight already where the robot stands cannot step.
+  /// Throws when a leg is straight already in the stand: such a leg cannot step.
   void expect_reach() const {
     const Leg& leg = body_.leg(left_side);
     const Frame trunk = body_.trunk_for(reference(), s_.trunk_height, s_.lean);
@@ -138,7 +138,7 @@ class Walk {
     return state_.time > s_.prepare + (has_imu_ ? settle + s_.calibrate : has_joints_ ? settle : 0);
   }
 
-  /// It has come to its posture for the first time, and waits for what is measured there.
+  /// Returns whether it has come to its posture for the first time, and waits for measurements there.
   bool is_at_rest() const { return state_.mode == preparing && !state_.calibrated && state_.time > s_.prepare; }
 
   void feel_springs(const Step& now, double h) {
@@ -164,7 +164,7 @@ class Walk {
     return get_up_.straight();
   }
 
-  /// A kick is made when its foot changes from 0.
+  /// Begins a kick when its foot changes from 0.
   void hear_kick(const Step& now) {
     const auto k = now.input(kick_command);
     if (k.size() != 2) return;
@@ -176,7 +176,7 @@ class Walk {
     change(kicking, now);
   }
 
-  /// Once the walk has ended with feet side by side.
+  /// Kicks when the walk has ended with feet side by side.
   void kick(const Step& now, double h) {
     if (state_.gait.phase() != Gait::standing) return;
     if (!state_.kick.has_begun())
@@ -187,7 +187,7 @@ class Walk {
     change(standing, now);
   }
 
-  /// Of the kick once it has begun, and of the gait.
+  /// Returns the reference of the kick once it has begun, otherwise the one of the gait.
   Reference reference() const {
     return state_.kick.has_begun() ? state_.kick.reference(s_.kick) : state_.gait.reference(s_.gait);
   }
@@ -205,7 +205,7 @@ class Walk {
   void feel(const Step& now, double h) {
     const auto w = now.input(angular_velocity), f = now.input(linear_acceleration);
     const Vector rate{w[0], w[1], w[2]}, force{f[0], f[1], f[2]};
-    // one that lies feels nothing but gravity
+    // a robot that lies feels only gravity
     state_.attitude.update(rate, force, state_.mode == falling ? 10 * s_.attitude : s_.attitude, h);
     if (s_.calibrate <= 0 || !is_at_rest() || state_.time <= s_.prepare + settle) return;
     if (state_.attitude.up().z < 0.9) return;
@@ -249,7 +249,7 @@ class Walk {
     return q;
   }
 
-  /// What begins with a mode comes within `prepare` s.
+  /// Moves to the posture of a mode within `prepare` s after its beginning.
   void write(const Posture& posture, const Step& now) {
     const auto out = now.output(targets);
     joints_.write(posture, out);

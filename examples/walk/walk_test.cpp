@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The humanoid goes where it is told, on its soles alone, by kinematics and in every full dynamics.
+// The humanoid follows commands, on its soles alone, by kinematics and in every full dynamics.
 #include <gtest/gtest.h>
 
 #include "walk_testing.hpp"
@@ -11,14 +11,14 @@ std::vector<std::string> with(const std::string& motion, const std::string& numb
   return {"robots.walker.motion.use=motion." + motion, tunables(numbers), "seed=" + std::to_string(seed)};
 }
 
-/// It stays upright and at its height, and nothing but soles touches the ground.
+/// Expects it upright and at its height, with nothing but its soles on the ground.
 void expect_upright(const Walker& walker) {
   EXPECT_GT(walker.least_upright(), std::cos(0.12));
   EXPECT_GT(walker.least_height(), 0.24) << "m: it stands at 0.255";
   EXPECT_EQ(walker.touched(), "");
 }
 
-/// For 6 s, of which 2.4 s pass before the first step.
+/// Walks for 6 s; 2.4 s of these pass before the first step.
 void expect_a_walk(const std::string& motion) {
   Walker walker(with(motion));
   walker.run(6);
@@ -35,7 +35,7 @@ TEST(Walk, GoesForwardAtArticulated) { expect_a_walk("articulated"); }
 TEST(Walk, GoesForwardAtMujoco) { expect_a_walk("mujoco"); }
 TEST(Walk, GoesForwardAtBullet) { expect_a_walk("bullet"); }
 
-/// The same numbers at every level: what the robot finds out by its joints says whether servos give way.
+/// Equal numbers at every level: the robot finds out by its joints whether servos give way.
 TEST(Walk, GoesThreeMetresAtEachLevelByTheSameNumbers) {
   for (const char* motion : {"biped", "simplified", "articulated"}) {
     SCOPED_TRACE(motion);
@@ -113,7 +113,7 @@ TEST(Walk, SaysThatLegsAreTooShort) {
   }
 }
 
-/// 10 m of way in 120 s, less than 1 m to the side.
+/// Expects 10 m of way in 120 s, less than 1 m to the side.
 void expect_ten_metres(const std::string& motion) {
   for (int seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(seed);

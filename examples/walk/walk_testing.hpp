@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For tests: a humanoid that walks, watched while it does.
+// A walking humanoid that is observed, for tests.
 #pragma once
 
 #include <algorithm>
@@ -45,12 +45,12 @@ class Walker {
   const Pose& pose() { return world().value(robot_->base(), keys::pose); }
   double yaw() { return yaw_of(pose().orientation); }
   double upright() { return (pose().orientation * Vec3::UnitZ()).z(); }
-  /// As `walk.phase` says: 1 stands, 2 walks, 3 falls, 4 gets up, 5 kicks.
+  /// Returns `walk.phase`: 1 stands, 2 walks, 3 falls, 4 gets up, 5 kicks.
   int phase() { return int(read("walk.phase")[0]); }
   const double* read(const char* property) {
     return static_cast<const double*>(world().store().find(robot_->base(), property)->place);
   }
-  /// N, N m: on the trunk, in world axes, about a point 0.1 m above the origin.
+  /// Pushes the trunk by a force (N, world axes) at a point 0.1 m above its origin.
   void push(const Vec3& force) {
     push_->force = force;
     push_->torque = Vec3(0, 0, 0.1).cross(force);
@@ -73,7 +73,7 @@ class Walker {
   double least_height() const { return least_height_; }    ///< m, of the trunk's origin, up to now
   double least_upright() const { return least_upright_; }  ///< cosine of the largest tilt
   const std::string& touched() const { return touched_; }  ///< a link other than the feet that touched something
-  /// How many times none, one and both feet were on the ground.
+  /// Returns how many times none, one and both feet were on the ground.
   const std::array<int, 3>& feet_down() const { return feet_down_; }
 
  private:

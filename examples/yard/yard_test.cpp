@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The yard as a user runs it, and as its state shows.
+// The yard, run as a user runs it, and checked by its state.
 #include <gtest/gtest.h>
 
 #include "host/scenario/builder.hpp"

@@ -43,7 +43,7 @@ constexpr Description description{
 struct DriveWheel {
   PlanarWheel plane;
   WheelSteering steering{};
-  double lower = 0, upper = 0;  ///< rad: its heading stays between
+  double lower = 0, upper = 0;  ///< rad, limits of its heading
   DriveTarget target{};         ///< when driven
 
   double lateral_velocity(double heading, const PlanarTwist& v) const {
@@ -54,7 +54,7 @@ struct DriveWheel {
     const auto [sine, cosine] = elementary::sincos(heading);
     return plane.longitudinal_velocity(sine, cosine, v, 0);
   }
-  /// The heading (rad) nearest to straight ahead at which the wheel does not slip sideways.
+  /// Returns the heading (rad) nearest to straight ahead at which the wheel does not slip sideways.
   double heading_at(const PlanarTwist& v) const {
     const double straight = steering.zero_heading;
     const double vx = v.x - v.yaw_rate * plane.y, vy = v.y + v.yaw_rate * plane.x, size = elementary::hypot(vx, vy);
@@ -65,7 +65,7 @@ struct DriveWheel {
     const double backward = std::remainder(direction + M_PI - off - straight, 2 * M_PI);
     return straight + (std::abs(forward) <= std::abs(backward) ? forward : backward);
   }
-  /// The fraction of `more`, 0 .. 1, that can be added to `v` before the steering is at a limit.
+  /// Returns the fraction of `more`, 0 .. 1, that can be added to `v` before the steering is at a limit.
   double feasible_fraction(const PlanarTwist& v, const PlanarTwist& more) const {
     double fraction = 1;
     for (const bool is_upper : {false, true}) {
@@ -83,14 +83,14 @@ struct DriveWheel {
 struct DriveSteering {
   Out<double> target;
   double lower = 0, upper = 0;  ///< rad
-  double wheel_count = 0;       ///< of wheels that it steers
+  double wheel_count = 0;       ///< number of wheels that it steers
 };
 
-/// What is kept of a robot.
+/// Data of one robot.
 struct DrivenRobot {
   In<Twist> command;
   bool all_steered = true;
-  double axle = 0;  ///< m, x in the frame of the base: of the wheels that are not steered
+  double axle = 0;  ///< m, mean x of the wheels that are not steered, in the frame of the base
   Range wheels, steering;
 };
 
@@ -145,11 +145,11 @@ class Ackermann final : public PerRobotAlgorithm<DrivenRobot> {
             is_limited ? std::min(link.limits.upper, limit) : link.limits.upper, 0};
   }
 
-  /// What of the command can be driven. When limits of steering do not allow all of it, the path is as near to the
-  /// wanted one as they allow: less turning at the same speed.
+  /// The part of the command that can be driven. When limits of the steering do not allow all of it, the vehicle turns
+  /// less at the same speed: the path is as near to the wanted one as the limits allow.
   struct FeasibleMotion {
     PlanarTwist velocity;
-    bool moves = false;  ///< else the wheels only take its angles
+    bool moves = false;  ///< false: the wheels only take its angles
   };
   FeasibleMotion feasible_motion(const DrivenRobot& r) const {
     const double yaw_rate = r.command->angular.z();

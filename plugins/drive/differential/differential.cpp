@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the commanded velocity of a base to the speeds of its left and right wheels, which do not slip.
+// Turns the commanded velocity of a base into the speeds of its left and right wheels, which do not slip.
 #include "muro/plugin.hpp"
 #include "plugins/common/wheels/side_wheel_drive.hpp"
 

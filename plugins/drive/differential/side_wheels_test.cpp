@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which wheels are found, seen through a drive: the speeds that a command asks of the wheels tell which were found, on
-// which side, with which radius, track and sense of rotation.
+// Search for wheels, tested through a drive: the speeds that a command asks of the wheels show which wheels were found,
+// on which side, with which radius, track and sense of rotation.
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/rotations.hpp"
@@ -25,9 +25,9 @@ struct Found : test::Scene {
     const ObjectId joint = world().object("rover/" + wheel + "_joint");
     return world().store().find(joint, keys::joint_velocity_target.name) != nullptr;
   }
-  /// rad/s of the wheel at 1 m/s.
+  /// Returns rad/s of the wheel at 1 m/s.
   double forward(const std::string& wheel) { return asked(wheel, {{1, 0, 0}, {0, 0, 0}}); }
-  /// rad/s of the wheel at 1 rad/s.
+  /// Returns rad/s of the wheel at 1 rad/s.
   double turn(const std::string& wheel) { return asked(wheel, {{0, 0, 0}, {0, 0, 1}}); }
 
  private:
@@ -39,7 +39,7 @@ struct Found : test::Scene {
   ObjectId base_{};
 };
 
-/// What the user reads when the wheels cannot be found.
+/// Returns the message that the user reads when the wheels cannot be found.
 std::string complaint(const RobotTree& tree, const Settings& settings = {}) {
   return test::complaint_of([&] { Found found(tree, settings); });
 }

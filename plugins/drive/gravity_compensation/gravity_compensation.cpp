@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Weight that is taken off links, as `gravcomp` of MuJoCo (XML reference, body) and `<gravity>` of SDFormat do.
+// Takes weight off links, as `gravcomp` of MuJoCo (XML reference, body) and `<gravity>` of SDFormat do.
 #include <algorithm>
 #include <map>
 
@@ -34,7 +34,7 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-/// What is kept of a robot: the lifted links, in the order of what they push.
+/// Data of one robot: its lifted links, ordered by the links on which their forces act.
 struct Robot {
   struct Pushed {
     Sum<Wrench> wrench;
@@ -43,7 +43,7 @@ struct Robot {
   };
   struct Lifted {
     In<Pose> pose;
-    Vec3 center_of_mass = Vec3::Zero();  ///< in the link
+    Vec3 center_of_mass = Vec3::Zero();  ///< in the frame of the link
     Vec3 force = Vec3::Zero();           ///< N, world axes
   };
   Range pushed;
@@ -100,13 +100,13 @@ class GravityCompensation final : public PerRobotAlgorithm<Robot> {
     return links;
   }
 
-  /// "arm" of "robot/arm".
+  /// Returns "arm" of "robot/arm".
   static std::string_view local_name(const Connector& c, const RobotView& view, std::uint32_t link) {
     const std::string_view full = c.object_name(view.links[link].object);
     return full.substr(std::min(full.size(), view.name.size() + 1));
   }
 
-  /// The link, or the nearest one that carries it, on which the motion lets wrenches act.
+  /// Returns the link, or the nearest link that carries it, on which the motion lets wrenches act.
   static std::uint32_t pushed_by(const Connector& c, const RobotView& view, std::uint32_t link) {
     while (link > 0 && !c.is_used(view.links[link].object, keys::external_wrench, usage::read_sum))
       link = std::uint32_t(view.links[link].parent);

@@ -24,7 +24,7 @@ RobotTree base_with_arm() {
   });
 }
 
-/// A robot above nothing, some of whose links are lifted.
+/// A robot in the air, some of whose links are lifted.
 struct Lifted : test::Scene {
   const RobotView& robot;
   Lifted(const RobotTree& tree, const std::string& motion, Settings settings, Settings of_motion = {})
@@ -57,7 +57,7 @@ TEST_P(GravityCompensation, OfTwiceTheWeightRisesAsFastAsItWouldFall) {
   EXPECT_NEAR(s.twist(s.robot).linear.z(), 9.81, 0.006);
 }
 
-/// A pendulum without weight keeps its angle; with it, it falls from level at 3/2 g / (1 m).
+/// A pendulum without weight keeps its angle; with its weight it falls, from level at 3/2 g / (1 m).
 TEST_P(GravityCompensation, OfAnArmLeavesItWhereItIs) {
   Lifted held(base_with_arm(), GetParam(), {{"links", std::vector<std::string>{"arm"}}},
               {{"base", std::string("fixed")}, {"joints", std::string("passive")}});
@@ -70,7 +70,7 @@ TEST_P(GravityCompensation, OfAnArmLeavesItWhereItIs) {
   EXPECT_NEAR(half.angle(), 0.5 * acceleration * 0.01, 4e-4);
 }
 
-/// The base falls with the weight of 2 of 3 kg.
+/// The robot of 3 kg falls with the weight of 2 kg.
 TEST_P(GravityCompensation, OfOnePartLetsAllFallMoreSlowly) {
   Lifted s(base_with_arm(), GetParam(), {{"links", std::vector<std::string>{"arm"}}},
            {{"joints", std::string("passive")}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the commanded velocity of a base to the speeds of its mecanum or omni wheels: the inverse of motion.omni.
+// Turns the commanded velocity of a base into the speeds of its mecanum or omni wheels: the inverse of motion.omni.
 #include "muro/plugin.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/common/wheels/drive_target.hpp"
@@ -30,7 +30,7 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-/// What is kept of a robot.
+/// Data of one robot.
 struct OmniRobot {
   struct Wheel {
     DriveTarget target;
@@ -55,7 +55,7 @@ class Omni final : public PerRobotAlgorithm<OmniRobot> {
   OmniRobot connect_robot(Connector& c, const Item& item) override {
     const RobotView& robot = *item.robot;
     const std::vector<OmniWheel> found = find_omni_wheels(c, robot);
-    jacobian_columns(robot, found);  // says when the wheels cannot move the robot in every direction
+    jacobian_columns(robot, found);  // throws when the wheels cannot move the robot in every direction
     OmniRobot r;
     r.command = c.input(robot.base(), keys::command_twist, Twist{});
     std::vector<OmniRobot::Wheel> wheels;

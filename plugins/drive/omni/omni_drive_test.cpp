@@ -75,7 +75,7 @@ TEST(OmniDrive, MovesTheModelsOfTheExamplesAsCommanded) {
 TEST(OmniDrive, KeepsTheDirectionWhenAWheelIsAtItsLimit) {
   for (const double limit : {1e9, 5.0}) {
     Driven s(mecanum(12), {{"max_wheel_speed", limit}});
-    s.command(1, 2, 3);  // the most, of fr: (1 + 2 + 1.35) / 0.05 = 87
+    s.command(1, 2, 3);  // greatest speed, of fr: (1 + 2 + 1.35) / 0.05 = 87
     const double part = std::min(limit, 12.0) / 87;
     EXPECT_NEAR(s.target("fr"), std::min(limit, 12.0), 1e-12);
     EXPECT_LT((s.moving() - part * Vec3(1, 2, 0)).norm(), 1e-12);

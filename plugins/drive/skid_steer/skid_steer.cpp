@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// As drive.differential, for vehicles whose wheels skid when they turn: these act as if they stood farther apart
+// drive.differential for vehicles whose wheels skid when they turn. Such wheels act as if they were farther apart
 // (Mandow et al., Experimental kinematics for wheeled skid-steer mobile robots, IROS 2007).
 #include "muro/plugin.hpp"
 #include "plugins/common/wheels/side_wheel_drive.hpp"

@@ -6,13 +6,13 @@
 namespace muro::servo {
 namespace {
 
-/// A rotor and a joint; no controller.
+/// A rotor and a joint without a controller.
 struct Train {
   Gearbox gear;
   Motor motor{};
   double h = 1e-3;
   Rotor rotor{};
-  double q = 0, v = 0;   ///< of the joint
+  double q = 0, v = 0;   ///< position and velocity of the joint
   bool clamped = false;  ///< the joint does not move
 
   double step(double wanted, double load = 0) {
@@ -39,13 +39,13 @@ TEST(Gearbox, RotorAndJointSpeedUpAsOneBody) {
 
 TEST(Gearbox, TheJointStandsStillWhileTheRotorCrossesTheGap) {
   Train t{.gear = {.rotor_inertia = 0.002, .joint_inertia = 0.02, .backlash = 0.04}};
-  t.rotor.position = -0.02;  // lies on the lower flank
+  t.rotor.position = -0.02;  // touches the lower flank
   double crossed = 0;
   for (int n = 0; n < 1000 && t.q == 0; ++n) {
     t.step(0.1);
     crossed = t.rotor.position;
   }
-  // It meets the other flank with M t / J = 2 rad/s; one step to get there and one to push.
+  // The rotor meets the other flank with M t / J = 2 rad/s; one step to reach it and one to push.
   EXPECT_NEAR(crossed, 0.02, 2 * 0.1 / 0.002 * 0.04 * t.h);
   EXPECT_GT(t.v, 0);
 }
@@ -108,13 +108,13 @@ TEST(Gearbox, FrictionStopsItInTheTextbookWay) {
 }
 
 TEST(Gearbox, TheEfficiencyIsWhatOfTheMotorsEffortReachesALoad) {
-  // Raising a load M steadily the motor gives M / eta; below M (2 - 1/eta) the load drives it back.
+  // Raising a load M steadily takes M / eta of the motor; below M (2 - 1/eta) the load drives it back.
   for (const double eta : {0.9, 0.7, 0.4}) {
     Train t{.gear = {.rotor_inertia = 0.01, .joint_inertia = 0.02, .loss = 1 / eta - 1}};
     for (int n = 0; n < 1000; ++n) t.step(1.001 / eta, 1);
     EXPECT_GT(t.v, 0) << eta;
     Train held{.gear = t.gear};
-    for (int n = 0; n < 20; ++n) held.step(1, 1);  // takes the load on
+    for (int n = 0; n < 20; ++n) held.step(1, 1);  // takes up the load
     const double back = 2 - 1 / eta;
     for (int n = 0; n < 3000; ++n) held.step(back > 0 ? 1.01 * back : 0, 1);
     EXPECT_LT(std::abs(held.v), 1e-9) << eta << (back <= 0 ? ": locks itself" : "");

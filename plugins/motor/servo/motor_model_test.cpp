@@ -17,7 +17,7 @@ constexpr MotorModel mx64{.kt = 1.622,
                           .duty_limit = 0.9625,
                           .friction = {.coulomb = 0.0904, .viscous = 0.0117}};
 
-/// rad/s: after `duration` (s) with the voltage on, without load, in steps of `dt`.
+/// Returns rad/s after `duration` (s) with the voltage on, without load, in steps of `dt`.
 double speed_after(const MotorModel& m, double voltage, double duration, double dt) {
   double w = 0;
   for (int k = 0; k < int(std::lround(duration / dt)); ++k) {
@@ -108,7 +108,7 @@ TEST(MotorModel, TheLoadIsFoundFromTheMotion) {
   EXPECT_NEAR(LoadObserver::load(moving, moving - 2, torque, budget, inertia, 0, dt), load, 1e-12);
   const double back = next_velocity(-2, torque + load, budget, inertia, dt);
   EXPECT_NEAR(LoadObserver::load(back, back + 2, torque, budget, inertia, 0, dt), load, 1e-12);
-  // at rest friction hides it: it is what it was, as far as that is possible
+  // at rest friction hides the load: the observer keeps its last value, as far as that is possible
   EXPECT_EQ(LoadObserver::load(0, 0, 0.2, budget, inertia, -0.1, dt), -0.1);
   EXPECT_EQ(LoadObserver::load(0, 0, 1.0, budget, inertia, -0.1, dt), -0.7);
 }

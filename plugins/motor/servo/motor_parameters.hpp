@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parameters of a voltage-driven motor: from a part file, and from those of the scenario, which take precedence.
+// Parameters of a voltage-driven motor: those of a part file and those of the scenario, which take precedence.
 #pragma once
 
 #include <span>
@@ -20,14 +20,14 @@ std::span<const ReadyPart> ready_parts();  // generated: the files parts/*.yaml
 
 namespace muro::servo {
 
-/// Of the motor and its amplifier.
+/// Parameters of the motor and its amplifier.
 struct MotorParameters {
   motor::MotorModel model;    ///< `gain`: for each unit of the P gain
-  double p_gain = 0;          ///< of the firmware, in its units
+  double p_gain = 0;          ///< P gain of the firmware, in its units
   double supply_voltage = 0;  ///< V
 };
 
-/// Those of a part file before its sections, and in a section; both are parameters of motor.servo.
+/// Names in a part file: before its sections, and in a section. All are parameters of motor.servo.
 inline constexpr std::string_view amplifier_names[] = {"source", "supply_voltage", "p_gain", "duty_gain", "duty_limit"};
 inline constexpr std::string_view motor_names[] = {"kt",
                                                    "resistance",
@@ -45,7 +45,7 @@ inline bool has_voltage(const Parameters& p) { return !p.text("part").empty() ||
 
 class MotorParameterReader {
  public:
-  /// Throws Error for a part that is not there, and for a file that is none.
+  /// Throws Error when the part does not exist, or the file is no part file.
   MotorParameterReader(const Connector& c, const Parameters& p) : p_(p) {
     const std::string name(p.text("part"));
     if (name.empty()) {
@@ -81,7 +81,7 @@ class MotorParameterReader {
   }
 
  private:
-  /// The model that is asked for, or the last, which knows most.
+  /// Chooses the section that the scenario names, or the last one, whose model is the most detailed.
   void choose_section() {
     const std::vector<std::string> sections = part_.sections();
     const std::string wanted(p_.text("friction_model"));
@@ -114,10 +114,10 @@ class MotorParameterReader {
 
   const Parameters& p_;
   PartFile part_;
-  std::string section_;  ///< empty: all is in the scenario
+  std::string section_;  ///< empty: all parameters are in the scenario
 };
 
-/// Throws Error for parameters of the other kind of motor. `voltage`: whether this one is driven by a voltage.
+/// Throws Error for parameters of the other kind of motor. `voltage`: whether this motor is driven by a voltage.
 inline void check_kind_of_motor(const Parameters& p, bool voltage) {
   constexpr std::string_view by_effort[] = {"stiffness",     "damping",       "integral",      "gear_ratio",
                                             "stall_torque",  "no_load_speed", "max_torque",    "efficiency",

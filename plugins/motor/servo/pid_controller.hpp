@@ -6,23 +6,23 @@
 
 namespace muro::servo {
 
-/// N m or N, min <= max.
+/// Limits of an effort, N m or N, min <= max.
 struct EffortLimits {
   double min = 0, max = 0;
 };
 
 /// A PID controller of a position, or a PI controller of a velocity.
 struct PidController {
-  bool follows_velocity = false;  ///< else a position
+  bool follows_velocity = false;  ///< false: follows a position
   double stiffness = 0;           ///< N m/rad
   double damping = 0;             ///< N m s/rad
-  double integral = 0;            ///< N m/(rad s), of the position's error
+  double integral = 0;            ///< N m/(rad s), gain of the integral of the position error
 
-  /// The effort (N m or N) for `target` within `limits`. `i`: the effort of the integral term so far.
+  /// Returns the effort (N m or N) for `target`, within `limits`. Updates `i`, the effort of the integral term.
   ///
-  /// Position: stiffness e + i - damping v, with i' = integral e. Velocity: damping e + i, with i' = stiffness e.
-  /// The integral does not grow while the effort is at a limit that the error asks to pass, and is never beyond the
-  /// limits (conditional integration: Astrom and Hagglund, PID Controllers, Section 3.5).
+  /// Position: stiffness e + i - damping v, with i' = integral e. Velocity: damping e + i, with i' = stiffness e. The
+  /// integral does not grow while the effort is at a limit and the error asks for more, and is never beyond the limits
+  /// (conditional integration: Astrom and Hagglund, PID Controllers, Section 3.5).
   double effort(double target, double position, double velocity, const EffortLimits& limits, double& i,
                 double dt) const {
     const double error = target - (follows_velocity ? velocity : position);

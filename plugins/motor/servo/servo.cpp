@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A position or velocity servo: digital controller, DC motor and gear, in front of any motion whose joints efforts
-// drive. The motor gives the effort that its controller wants, within its limits, or is driven by a voltage.
+// A position or velocity servo: digital controller, DC motor and gear. It drives joints whose motion takes efforts. The
+// motor gives the effort that its controller wants, within its limits, or is driven by a voltage.
 #include <string>
 #include <utility>
 #include <vector>
@@ -113,18 +113,18 @@ constexpr Description description{
 struct ServoJoint {
   In<double> command, position, velocity;
   Out<double> effort, integral, encoder_reading, measured_speed, motor_effort;
-  Out<double> rotor_position, rotor_velocity;  ///< where the rotor has inertia
-  ListOut<double> commands;                    ///< where there is a delay; from the oldest, in a ring
+  Out<double> rotor_position, rotor_velocity;  ///< used when the rotor has inertia
+  ListOut<double> commands;                    ///< used when there is a delay: a ring of commands
   Gearbox gear;
-  VoltageDrive voltage_drive;  ///< where a voltage drives the motor
+  VoltageDrive voltage_drive;  ///< used when a voltage drives the motor
   double initial_command = 0;
-  In<std::uint64_t> world;  ///< keys::contact_world, where several motions move the robot
+  In<std::uint64_t> world;  ///< keys::contact_world, used when several motions move the robot
 
-  /// Whether a motion by forces moves the robot; else the effort is written and does nothing.
+  /// Returns whether a motion by forces moves the robot; otherwise the effort has no effect.
   bool acts() const { return !world || is_moved_by_forces(*world); }
 };
 
-/// What is kept of a robot.
+/// Data of one robot.
 struct ServoRobot {
   Range joints;
 };
@@ -224,7 +224,7 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
     return {joints_.add(joints)};
   }
 
-  /// The links to which the joints to drive lead. Where none is named: those whose motion takes efforts.
+  /// Returns the links that the joints to drive move. Without names: of all joints whose motion takes efforts.
   static std::vector<std::size_t> driven_links(Connector& c, const RobotView& robot) {
     const std::span<const std::string_view> names = c.parameters().texts("joints");
     std::vector<std::size_t> links;
@@ -255,7 +255,7 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
     return links;
   }
 
-  /// The command of `delay_` ago.
+  /// Returns the command that was given `delay_` ago.
   double delayed_command(const ServoJoint& j, const Step& step) const {
     const double command = *j.command;
     if (!j.commands) return command;
@@ -302,7 +302,7 @@ class Servo final : public PerRobotAlgorithm<ServoRobot> {
   double delay_ = 0;  ///< s
   bool has_voltage_ = false;
   Motor motor_;
-  Gearbox gear_;  ///< but the inertia of the joint
+  Gearbox gear_;  ///< without the inertia of the joint
   PackedLists<ServoJoint> joints_;
 };
 

@@ -103,7 +103,7 @@ TEST(Servo, ACommandIsDelayedByWholeRuns) {
 }
 
 TEST(Servo, TheOffsetIsTheTruePositionLessTheMeasuredOne) {
-  // m g l sin(q) = k (goal - (q - offset)) at rest, for the rod; nothing turns the wheel
+  // m g l sin(q) = k (goal - (q - offset)) at rest, for the rod; no load turns the wheel
   const double k = 8, offset = 0.15, goal = 0.3;
   Bench s({{"stiffness", k}, {"damping", 0.4}, {"offset", offset}}, {}, 1000, 0.2);
   s.run_for(0.5);
@@ -181,7 +181,7 @@ TEST(Servo, TheRotorIsFeltThroughTheGear) {
 const Parameters loose{
     {"stiffness", 20.0}, {"damping", 1.0}, {"rotor_inertia", 0.004}, {"encoder", "motor"}, {"backlash", 0.05}};
 
-/// Goes to `goal` so slowly that the joint does not coast; returns where the joint comes to rest.
+/// Moves slowly to `goal`, so that the joint does not coast; returns the position at which the joint comes to rest.
 double creep(Bench& s, double goal) {
   for (int k = 0; s.goal() != goal && k < 100'000; ++k) {
     s.goal() += std::clamp(goal - s.goal(), -5e-5, 5e-5);
@@ -226,7 +226,7 @@ TEST(Servo, AnEncoderOnTheMotorAvoidsTheLimitCycleOfBacklash) {
 }
 
 TEST(Servo, FrictionOfTheGearHoldsALoadWithoutChatter) {
-  // 0.75 kg at 0.2 m: 1.47 N m sin(angle). The controller asks for next to nothing.
+  // 0.75 kg at 0.2 m: 1.47 N m sin(angle). The controller asks for almost nothing.
   const Parameters worm{{"stiffness", 1e-9}, {"rotor_inertia", 0.01}, {"friction", 0.8}};
   Bench s(worm, {.damping = 0.01}, 1000, 0.5);  // 0.71 N m
   s.run_for(5);
@@ -270,7 +270,7 @@ TEST(Servo, GoesOnFromASnapshotToTheSameBits) {
   EXPECT_EQ(s.state_hash(), end);
 }
 
-/// What the error of a slow commanded motion would have added up to is not there when forces move the joint again.
+/// The integral does not keep the error of a slow commanded motion when forces move the joint again.
 TEST(Servo, ItsIntegralRestsWhileNoForceMovesTheRobot) {
   test::Scene s;
   const RobotView& r = s.add("r", bench({}));
@@ -283,7 +283,7 @@ TEST(Servo, ItsIntegralRestsWhileNoForceMovesTheRobot) {
     return s.world().value("r/" + joint, key);
   };
   const Key<double> integral{"servo.integral", "N m or N", ""};
-  const double level = 0.75 * 9.81 * 0.2;  // N m, that holds the rod up when it is level
+  const double level = 0.75 * 9.81 * 0.2;  // N m, holds the rod when it is level
   of("arm", keys::joint_position_target) = M_PI / 2;
   s.run_for(5);
   ASSERT_NEAR(std::abs(of("arm", integral)), level, 1e-3) << "it holds the rod";

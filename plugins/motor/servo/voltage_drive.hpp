@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A joint driven by a motor at a voltage: what it reads and writes, and one run of it.
+// A joint driven by a motor at a voltage: its properties, and one run of it.
 #pragma once
 
 #include <limits>
@@ -20,7 +20,7 @@ inline constexpr Key<double> duty_key{"servo.duty", "1", "part of the supply vol
 class VoltageDrive {
  public:
   VoltageDrive() = default;
-  /// `inertia`: kg m^2, what the joint moves at the start, with its own armature. [setup]
+  /// `inertia`: kg m^2, moved by the joint at the start, including the joint's own armature. [setup]
   VoltageDrive(Connector& c, ObjectId joint, const MotorParameters& m, double inertia)
       : model_(m.model), inertia_(inertia + m.model.armature), joint_(c.object_name(joint)) {
     supply_voltage_ = c.input(joint, supply_voltage_key, m.supply_voltage);
@@ -34,9 +34,9 @@ class VoltageDrive {
   }
   explicit operator bool() const { return bool(duty_); }
 
-  /// The effort (N m) of the motor with the position's error `error` (rad) at `velocity` (rad/s). `acts`: a motion by
-  /// forces has moved the joint, so its motion tells of its load. Throws Error where
-  /// the period `dt` (s) is too long for its back EMF, and for a command that is no number, or none that a motor takes.
+  /// Returns the effort (N m) of the motor for the position error `error` (rad) at `velocity` (rad/s). `acts`: a motion
+  /// by forces has moved the joint, so the velocity shows the load. Throws Error when the period `dt` (s) is too long
+  /// for the back EMF, and for a commanded voltage or gain that is not a finite number, 0 or more.
   double run(double error, double velocity, bool acts, double dt) const {
     if (model_.back_emf_damping() * dt > inertia_) throw too_slow(dt);
     if (!is_command(*supply_voltage_)) throw no_command(supply_voltage_key, *supply_voltage_);
@@ -52,8 +52,8 @@ class VoltageDrive {
   }
 
  private:
-  /// Part of the state; all 0 before the first run. What it says of the load does not count behind a run while a motion
-  /// without forces moved the robot.
+  /// Data of the last run, a part of the state; all 0 before the first run. A run in which a motion without forces
+  /// moved the robot resets them, since it says nothing about the load.
   struct LastRun {
     double has_run, velocity, torque, budget, load;
   };
@@ -79,8 +79,8 @@ class VoltageDrive {
   double inertia_ = 0;  ///< kg m^2, with the armature
   In<double> supply_voltage_, torque_enable_, p_gain_;
   Out<double> duty_, friction_, armature_;
-  std::string joint_;        ///< its name, for messages
-  LastRun* last_ = nullptr;  ///< where friction depends on the load
+  std::string joint_;        ///< name of the joint, for messages
+  LastRun* last_ = nullptr;  ///< used when friction depends on the load
 };
 
 }  // namespace muro::servo

@@ -35,7 +35,7 @@ struct VoltageBench : test::Scene {
     world().set(world().object("r/joint"), keys::initial_joint_position, start);
     use(motion, rate, all_robots(), {{"joints", "effort"}, {"base", "fixed"}});
     use("motor.servo", rate, all_robots(), servo);
-    if (motion == "motion.articulated") use_contacts();  // it is told of them
+    if (motion == "motion.articulated") use_contacts();  // it gets contacts from them
     build();
   }
   double& of(const Key<double>& key) { return world().value("r/joint", key); }
@@ -103,7 +103,7 @@ TEST_P(VoltageDriveAt, FrictionHoldsAPendulum) {
   EXPECT_LT(s.q(), std::asin(0.2 / weight)) << "0.23 N m are more than it can hold";
 }
 
-/// The same pendulum by the pure model, which knows the load.
+/// The pendulum by the pure model, which knows the load.
 struct PurePendulum {
   motor::MotorModel motor;
   double q = 0, w = 0;
@@ -221,7 +221,7 @@ TEST(VoltageDrive, MistakesAreNamedWithAdviceToo) {
     EXPECT_NE(refusal_of(servo).find(text), std::string::npos) << text << "\n" << refusal_of(servo);
 }
 
-/// Another motion, which takes no efforts, has swung the joint: what that would have taken is no load of this one.
+/// Another motion, which takes no efforts, has swung the joint: the effort needed for this is no load of this motion.
 TEST(VoltageDrive, TakesNoLoadFromAnotherMotion) {
   const motor::MotorModel model{.kt = 0.386,
                                 .resistance = 3.403,

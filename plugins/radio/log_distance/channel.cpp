@@ -8,7 +8,7 @@
 
 namespace muro::log_distance {
 
-/// That of SLEEF which is the same with and without fused multiply-add; at most 1.5 ulp from the true value.
+/// Complementary error function of SLEEF, equal with and without fused multiply-add; error: at most 1.5 ulp.
 [[gnu::const, gnu::nothrow]] double error_function_complement(double x) __asm__("Sleef_cinz_erfcd1_u15purec");
 
 namespace {
@@ -16,7 +16,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 double oqpsk_error(double snr) {
-  double sum = 0, binomial = 16;  // of 16 over k, from k = 1 on
+  double sum = 0, binomial = 16;  // 16 over k, beginning with k = 1
   for (int k = 2; k <= 16; ++k) {
     binomial *= (17.0 - k) / k;
     sum += (k % 2 == 0 ? 1 : -1) * binomial * elementary::exp(20 * snr * (1.0 / k - 1));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// From the way to the lists that control code reads.
+// Moves messages that have arrived to the lists that control code reads.
 #pragma once
 
 #include "radio.hpp"
 
 namespace muro::log_distance {
 
-/// A message that a radio receives, where its bytes lie.
+/// A message that a radio receives. `payload` points to its bytes.
 struct Incoming {
   double received;  ///< s
   double sent;      ///< s
@@ -17,11 +17,11 @@ struct Incoming {
   const Payload* payload;
 };
 
-/// Lists what has come by `now` (s), in the order of its coming: of `incoming`, which is new, and of what was on its
-/// way before. The rest of `incoming` is then on its way.
+/// Lists the messages that have arrived by `now` (s) in order of arrival: new ones from `incoming`, and older ones that
+/// were on their way. The other messages of `incoming` are on their way from now on.
 void deliver(const Radio& r, std::span<const Incoming> incoming, double now);
 
-/// Removes messages from the list of those that have come that have been there for long.
+/// Removes messages from the list of received messages when they are older than `keep`.
 void forget_messages(const Radio& r, double now);
 
 }  // namespace muro::log_distance

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The state of a radio: lists and blocks in properties, without padding.
+// State of a radio: lists and blocks in properties, without padding.
 #pragma once
 
 #include "muro/vocabulary/radio.hpp"
@@ -11,14 +11,14 @@ using radio::Payload;
 enum class Stage : std::uint32_t {
   waiting,   ///< in the queue
   on_air,    ///< its times are known
-  complete,  ///< its end has come in this step: receivers look at it
-  past,      ///< kept as long as it may have disturbed others
+  complete,  ///< its end has come in this step: receivers process it
+  past,      ///< kept while it may still overlap with a frame that is received
 };
 
 /// A message at its sender, as a frame.
 struct Frame {
-  double handed_over = 0;     ///< s: when control code's message was found
-  double start = 0, end = 0;  ///< s: of the transmission, from Stage::on_air on
+  double handed_over = 0;     ///< s: time at which the message of the control code was found
+  double start = 0, end = 0;  ///< s: times of the transmission, valid from Stage::on_air on
   std::int64_t number = 0;
   std::int64_t receiver = radio::broadcast;  ///< number of a robot
   std::uint32_t size = 0;                    ///< bytes, without overhead
@@ -27,7 +27,7 @@ struct Frame {
 };
 static_assert(sizeof(Frame) == 5 * 8 + 2 * 4 + radio::max_bytes);
 
-/// A message at its receiver that is on its way there, or has come.
+/// A message at its receiver: on its way there, or received.
 struct Arrival {
   double sent = 0, received = 0;  ///< s
   double rssi = 0;                ///< dBm
@@ -38,13 +38,13 @@ struct Arrival {
 };
 static_assert(sizeof(Arrival) == 4 * 8 + 2 * 4 + radio::max_bytes);
 
-/// How a radio gets at the medium (unslotted CSMA-CA), and what it last took from its control code.
+/// State of the channel access of a radio (unslotted CSMA-CA), and the last command of its control code.
 struct Access {
   std::int64_t last_command = 0;             ///< radio.send.number
-  std::int64_t last_number = 0;              ///< of a message
-  double attempt = 0;                        ///< s: when it next listens whether the medium is free
-  double on_air_from = 0, on_air_until = 0;  ///< s: of its last transmission
-  std::int64_t on_air_number = 0;            ///< of the message in it
+  std::int64_t last_number = 0;              ///< number of the last message
+  double attempt = 0;                        ///< s: time at which it next listens whether the medium is free
+  double on_air_from = 0, on_air_until = 0;  ///< s: times of its last transmission
+  std::int64_t on_air_number = 0;            ///< number of the message in this transmission
   std::int64_t contending_for = 0;           ///< number of the message that waits for the medium
   std::uint64_t draws = 0;                   ///< random back-offs so far
   std::uint32_t backoffs = 0;                ///< NB: of the frame at the head

@@ -51,7 +51,7 @@ constexpr Description description{
     .capabilities = deterministic | world | allocation_free | restorable,
 };
 
-/// Of the shadowing: with more luck than that nobody counts.
+/// Shadowing beyond this number of standard deviations is neglected.
 constexpr double most_deviations = 4;
 
 class LogDistance final : public Algorithm {
@@ -63,13 +63,13 @@ class LogDistance final : public Algorithm {
 
  private:
   static Radio bind(Connector& c, std::uint32_t i);
-  /// m: so far the strongest sender is received with a power (dBm).
+  /// Returns the distance in m within which the strongest sender is received with at least `weakest` (dBm).
   double reach(double weakest) const;
   void find_distances();
   void tell_of_mistakes(Connector& c) const;
   CallNote* note() const { return notes_ ? &notes_->of_this_thread() : nullptr; }
   void send(const Radio& r, double now) const;
-  /// What receivers need of all radios, and the medium where they share one. By one thread.
+  /// Collects what receivers need of all radios, and advances the medium if it is shared. Called by one thread.
   void look_around(const Step& step);
   void contend(double now, std::uint64_t seed);
 
@@ -77,13 +77,13 @@ class LogDistance final : public Algorithm {
   Channel channel_;
   std::optional<line_of_sight::LineOfSight> sight_;
   std::vector<Radio> radios_;
-  double hearing_ = 0, sensing_ = 0, disturbing_ = 0;  ///< m: so far the strongest sender does so
+  double hearing_ = 0, sensing_ = 0, disturbing_ = 0;  ///< m: ranges of the strongest sender
   SharedMedium medium_;
-  // of the present step
-  std::vector<Vec3> places_;             ///< m, of the radios
-  std::vector<CompleteFrame> complete_;  ///< of all radios
-  std::vector<Vec3> complete_from_;      ///< m: where their senders are
-  SpatialHash hash_;                     ///< over these
+  // data of the present step
+  std::vector<Vec3> places_;             ///< m, positions of the radios
+  std::vector<CompleteFrame> complete_;  ///< complete frames of all radios
+  std::vector<Vec3> complete_from_;      ///< m: positions of their senders
+  SpatialHash hash_;                     ///< over complete_from_
   std::uint8_t somebody_receives_ = 0;
   const Phase phases_[3] = {{Phase::IndexSpace::items, Phase::Scope::own_robot},
                             {Phase::IndexSpace::whole},
@@ -137,7 +137,7 @@ void LogDistance::connect(Connector& c) {
   find_distances();
 }
 
-/// What can be computed, and is hardly meant. Each once.
+/// Warns once about each setting that is possible but probably not intended.
 void LogDistance::tell_of_mistakes(Connector& c) const {
   std::set<std::string> told;
   for (std::uint32_t i = 0; i < c.items().size(); ++i)
@@ -158,7 +158,7 @@ void LogDistance::tell_of_mistakes(Connector& c) const {
                      number_text(power) + " dBm, which is below each `sensitivity`");
 }
 
-/// Beyond four standard deviations of the shadowing nobody listens.
+/// Neglects shadowing of more than `most_deviations` standard deviations.
 double LogDistance::reach(double weakest) const {
   double strongest = -1e9;
   for (const Radio& r : radios_) strongest = std::max(strongest, r.parameters.tx_power);
@@ -178,7 +178,7 @@ void LogDistance::find_distances() {
   disturbing_ = reach(noise - below_noise);
 }
 
-/// Room for so many elements, so that steps seldom have to make it.
+/// Reserves memory for `elements` elements, so that steps rarely allocate.
 template <class T>
 void make_room(const ListOut<T>& list, std::size_t elements) {
   if (!(*list).empty()) return;
@@ -187,7 +187,7 @@ void make_room(const ListOut<T>& list, std::size_t elements) {
 }
 
 void LogDistance::start() {
-  constexpr std::size_t memory = 32 << 20;  // bytes, for all radios
+  constexpr std::size_t memory = 32 << 20;  // bytes, for all radios together
   const std::size_t messages = std::clamp<std::size_t>(memory / (512 * radios_.size()), 4, 64);
   for (const Radio& r : radios_) {
     make_room(r.frames, messages / 4);
@@ -224,7 +224,7 @@ void LogDistance::send(const Radio& r, double now) const {
 
 void LogDistance::contend(double now, std::uint64_t seed) {
   medium_.advance(channel_, radios_, places_, sensing_, now, seed);
-  double oldest = now;  // what overlaps with this or a later instant is needed
+  double oldest = now;  // frames that overlap with this or a later instant are still needed
   for (const Radio& r : radios_) {
     complete_frames(r, now);
     for (const Frame& f : *r.frames)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Messages between robots, each sender with a medium of its own.
+// Messages between robots. Each sender has a medium of its own.
 #include <random>
 
 #include "radio_testing.hpp"
@@ -124,7 +124,7 @@ TEST(Radio, LosesPacketsToNoiseAsTheFormulaSays) {
   }
 }
 
-/// Messages of 20 steps each at random instants, as many as make the load; the mean wait in units of a message.
+/// Returns the mean wait, in units of a message, of messages of 20 steps at random instants with this load.
 double mean_wait(double load, int messages) {
   Radios s;
   s.place("a", {0, 0, 0});
@@ -143,7 +143,7 @@ double mean_wait(double load, int messages) {
 }
 
 TEST(Radio, QueuesAsOneServerWithOneServiceTimeDoes) {
-  // u / (2 (1 - u)), less one part in 20 as arrivals come at whole steps
+  // u / (2 (1 - u)), less one part in 20, since arrivals come at whole steps
   EXPECT_NEAR(mean_wait(0.5, 4000), 0.95 * 0.5, 0.05);
   EXPECT_NEAR(mean_wait(0.8, 8000), 0.95 * 2, 0.3);
 }
@@ -189,8 +189,8 @@ TEST(Radio, IsCutByWallsAndOtherRobotsNotByItsOwnBody) {
   EXPECT_EQ(cut[2], 0);
 }
 
-/// A hundred robots between walls that all send at once, or one after the other; power by receiver and sender, 0 where
-/// nothing has come.
+/// Has a hundred robots between walls send, all at once or one after the other. Returns the power by receiver and
+/// sender, 0 when nothing was received.
 std::vector<std::vector<double>> powers_among_walls(bool all_at_once) {
   constexpr std::size_t robots = 100;
   Radios s;

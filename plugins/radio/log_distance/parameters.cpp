@@ -12,7 +12,7 @@ namespace muro::log_distance {
 
 namespace {
 
-/// Of the channel: the same for all radios of a world.
+/// Parameters of the channel, equal for all radios of a world.
 constexpr std::string_view shared_numbers[] = {
     "frequency",     "reference_loss", "reference_distance", "exponent",        "shadowing_sigma",
     "obstacle_loss", "max_range",      "propagation_speed",  "noise_bandwidth", "capture"};
@@ -23,7 +23,7 @@ std::size_t place_of(std::string_view word, const std::string_view (&words)[n]) 
   return std::size_t(std::find(words, words + n, word) - words);
 }
 
-/// dB: that of free space where it is not given.
+/// Returns the given value, or the loss in free space (dB) when none is given.
 double reference_loss(const Parameters& p) {
   if (p.given("reference_loss")) return p.real("reference_loss");
   return free_space_loss(p.real("reference_distance"), p.real("frequency"), p.real("propagation_speed"));

@@ -50,15 +50,15 @@ inline constexpr Parameter parameters[] = {
     mounting_rpy,
 };
 
-/// Throws muro::Error where they contradict each other. [setup]
+/// Throws muro::Error when parameters contradict each other. [setup]
 RadioParameters radio_parameters(const Parameters& p);
 Channel channel_parameters(const Parameters& p);
 
-/// Throws muro::Error where a parameter of the channel, which all robots of a world share, differs from that of robot
-/// `first`. [setup]
+/// Throws muro::Error when a parameter of the channel differs from that of robot `first`: all robots of a world share
+/// the channel. [setup]
 void check_same_channel(const Parameters& p, const Parameters& of_the_first, std::string_view first);
 
-/// Says of parameters that are given which have no effect, and because of what. [setup]
+/// Returns a text for each given parameter that has no effect, with the reason. [setup]
 std::vector<std::string> without_effect(const Parameters& p);
 
 }  // namespace muro::log_distance

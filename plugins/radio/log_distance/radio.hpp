@@ -15,10 +15,10 @@
 
 namespace muro::log_distance {
 
-/// dB below the noise: of other transmissions, what is weaker does not count.
+/// dB below the noise: weaker transmissions do not disturb others.
 inline constexpr double below_noise = 3;
 
-/// What a radio has of its own.
+/// Parameters of one radio.
 struct RadioParameters {
   double tx_power = 0;       ///< dBm
   double sensitivity = 0;    ///< dBm: weaker signals are not received
@@ -26,8 +26,8 @@ struct RadioParameters {
   double bit_rate = 0;       ///< bit/s
   double overhead = 0;       ///< bytes of a frame beside the message
   std::size_t queue = 0;     ///< frames that may wait
-  double keep = 0;           ///< s: how long a message stays in the list of those that have come
-  double carrier_sense = 0;  ///< dBm: from here on the medium is busy
+  double keep = 0;           ///< s: how long a message stays in the list of received messages
+  double carrier_sense = 0;  ///< dBm: from this power on the medium is busy
   double turnaround = 0;     ///< s: from listening to sending
   double backoff_slot = 0;   ///< s
   std::uint32_t min_exponent = 0, max_exponent = 0, max_backoffs = 0;
@@ -58,7 +58,7 @@ struct Radio {
 enum class Shadowing : std::uint8_t { message, link };
 enum class Obstacles : std::uint8_t { ignore, block, loss };
 
-/// What all radios of a world have in common.
+/// Parameters that all radios of a world share.
 struct Channel {
   PathLoss path_loss;
   double shadowing_sigma = 0;  ///< dB
@@ -66,22 +66,22 @@ struct Channel {
   Obstacles obstacles = Obstacles::ignore;
   double obstacle_loss = 0;    ///< dB, each
   double max_range = 0;        ///< m
-  double speed = 0;            ///< m/s, of the signal
+  double speed = 0;            ///< m/s, propagation speed of the signal
   double noise_bandwidth = 0;  ///< Hz; 0: the bit rate
   Modulation modulation = Modulation::none;
-  double capture = 0;  ///< dB: without a modulation, what a signal must be above those it overlaps with
+  double capture = 0;  ///< dB: without a modulation, least ratio of a signal to noise and overlapping signals
   bool is_shared = false;
-  std::uint64_t key = 0;  ///< of the name of the world
+  std::uint64_t key = 0;  ///< hash of the name of the world
   const line_of_sight::LineOfSight* sight = nullptr;
 
-  /// The random numbers of one message from `a` to `b`; of a link (number -1) the same in both directions.
+  /// Returns the random numbers of one message from `a` to `b`. Number -1: of the link, equal in both directions.
   Random random(std::uint64_t seed, const Radio& a, const Radio& b, std::int64_t number) const {
     const bool swapped = number < 0 && a.key > b.key;
     const std::uint64_t keys[] = {key, swapped ? b.key : a.key, swapped ? a.key : b.key};
     return {seed, fnv1a({reinterpret_cast<const char*>(keys), sizeof keys}), std::uint64_t(number)};
   }
-  /// dBm: what `b` at `to` (m, world) receives of frame `number` of `a` at `from`; nothing where it is weaker than
-  /// `least` or out of range. obstacles(most): how many are on the line between them, at most `most`.
+  /// Returns the power in dBm that `b` at `to` (m, world) receives of frame `number` of `a` at `from`; nothing below
+  /// `least` or out of range. obstacles_between(most) counts obstacles on the line, up to `most`.
   template <class CountObstacles>
   std::optional<double> received_power(std::uint64_t seed, const Radio& a, const Vec3& from, const Radio& b,
                                        const Vec3& to, std::int64_t number, double least,
@@ -95,7 +95,7 @@ struct Channel {
  private:
   std::optional<double> unobstructed_power(std::uint64_t seed, const Radio& a, const Vec3& from, const Radio& b,
                                            const Vec3& to, std::int64_t number) const;
-  /// So many obstacles cut a link that has a margin (dB); 0: none matters.
+  /// Returns the number of obstacles that cut a link with this margin (dB); 0: obstacles do not matter.
   std::uint32_t deciding_obstacles(double margin) const;
   std::optional<double> behind(std::uint32_t count, double power, double least) const;
 };

@@ -16,7 +16,7 @@ namespace muro::log_distance {
 using Settings = std::map<std::string, ParameterInput>;
 using radio::Counters, radio::Header;
 
-/// Robots that are balls of 0.1 m, each with a radio in its middle. All of the same settings, unless they are given.
+/// Robots as balls of 0.1 m, each with a radio in its middle. All have the same settings unless some are given.
 struct Radios : test::Scene {
   explicit Radios(std::uint64_t seed = 1) : Scene(seed) {}
 
@@ -38,7 +38,7 @@ struct Radios : test::Scene {
     use("scene.bvh", 0);
     build();
   }
-  /// Control code of a radio writes a message.
+  /// Writes a message as control code of a radio does.
   void send(std::size_t i, const std::string& text, std::int64_t receiver = -1, std::uint32_t size = 0) {
     const ObjectId o = radios[i].object;
     radio::Payload& payload = world().value(o, keys::radio_send_bytes);
@@ -60,7 +60,7 @@ struct Radios : test::Scene {
   std::vector<Item> radios;
 };
 
-/// Within three standard deviations of a binomial distribution.
+/// Expects a value within three standard deviations of a binomial distribution.
 inline void expect_ratio(std::uint64_t count, std::uint64_t of, double probability, const std::string& what = "") {
   EXPECT_NEAR(double(count) / double(of), probability, 3 * std::sqrt(probability * (1 - probability) / double(of)))
       << what;

@@ -17,14 +17,14 @@ enum class Outcome : std::uint8_t { received, weak, wrong, disturbed };
 /// A frame that may be heard.
 struct Heard {
   const CompleteFrame* complete;
-  double squared_distance;  ///< m^2, to its sender
+  double squared_distance;  ///< m^2, squared distance to its sender
 };
 
-/// A transmission of another radio that may disturb others here.
+/// A transmission of another radio that may disturb receptions here.
 struct Nearby {
   Transmission transmission;
-  double squared_distance;  ///< m^2, to its sender
-  double power = -1;        ///< mW, here; below 0: not known yet
+  double squared_distance;  ///< m^2, squared distance to its sender
+  double power = -1;        ///< mW, received power; below 0: not known yet
 };
 
 bool overlap(const Transmission& t, const Frame& f) { return t.start < f.end && t.end > f.start; }
@@ -33,13 +33,13 @@ bool disturbs(const Nearby& n, const Heard& h) {
   return n.transmission.radio != h.complete->radio && overlap(n.transmission, *h.complete->frame);
 }
 
-/// Another transmission that overlaps with one that is received.
+/// Another transmission that overlaps with a received one.
 struct Disturbance {
   double from, until;  ///< s
   double power;        ///< mW
 };
 
-/// What one receiver has to do with in a step. A thread uses one for one receiver after the other.
+/// Reception of one radio in a step. A thread uses one object for one receiver after another.
 class Reception {
  public:
   void take_up(const Surroundings& s, std::uint32_t number);
@@ -59,7 +59,7 @@ class Reception {
   void count(Outcome outcome) const;
 
   const Surroundings* s_ = nullptr;
-  std::uint32_t number_ = 0;  ///< of the receiver
+  std::uint32_t number_ = 0;  ///< number of the receiver
   const Radio* r_ = nullptr;
   std::vector<Heard> heard_;
   std::vector<Nearby> nearby_;
@@ -96,7 +96,7 @@ void Reception::listen() {
   deliver(*r_, incoming_, s_->now);
 }
 
-/// What is on the air at the same time as one of the frames.
+/// Finds the transmissions that are on the air at the same time as one of the frames.
 void Reception::find_nearby() {
   double first = heard_[0].complete->frame->start, last = heard_[0].complete->frame->end;
   for (const Heard& h : heard_)
@@ -138,11 +138,11 @@ bool Reception::is_sending_during(const Frame& f) const {
   return std::any_of(own_.begin(), own_.end(), [&](const Transmission& t) { return overlap(t, f); });
 }
 
-/// Without a modulation: whether one of the other transmissions alone is too strong. Those whose senders are not much
-/// farther away than that of the frame come first, since they probably are.
+/// Without a modulation: returns whether one of the other transmissions alone is too strong. Checks senders that are
+/// not much farther away than the frame's sender first, since they are the likeliest.
 bool Reception::is_drowned(const Heard& h, double signal) {
   const double bearable =
-      from_decibels(signal - s_->channel.capture) * (1 + 1e-9);  // a little more: `all_right` has the last word
+      from_decibels(signal - s_->channel.capture) * (1 + 1e-9);  // slightly more: `all_right` decides
   const double near = 4 * h.squared_distance;
   const auto drowns = [&](bool nearer) {
     return std::any_of(nearby_.begin(), nearby_.end(), [&](Nearby& n) {
@@ -159,8 +159,8 @@ void Reception::find_disturbances(const Heard& h) {
   }
 }
 
-/// The probability that all bits are right. Between two instants at which something begins or ends, the bits have one
-/// probability.
+/// Returns the probability that all bits are right. All bits between two instants at which a transmission begins or
+/// ends have one probability.
 double Reception::all_right(const Radio& sender, const Frame& f, double signal,
                             std::span<const Disturbance> others) const {
   const Channel& c = s_->channel;

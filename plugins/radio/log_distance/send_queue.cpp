@@ -11,9 +11,9 @@ namespace muro::log_distance {
 namespace {
 
 constexpr std::uint32_t longest_message = 65535;                // bytes
-constexpr std::int64_t largest_number = std::int64_t(1) << 53;  // that a header holds
+constexpr std::int64_t largest_number = std::int64_t(1) << 53;  // greatest whole number that a header holds exactly
 
-/// Frames that have not begun at `now`.
+/// Returns the number of frames that have not begun at `now` (s).
 std::size_t waiting_frames(const Radio& r, double now) {
   std::size_t count = 0;
   for (const Frame& f : *r.frames) count += f.stage == Stage::waiting || (f.stage == Stage::on_air && f.start > now);

@@ -11,10 +11,10 @@ namespace muro::log_distance {
 
 namespace {
 
-/// Draw of the back-offs; those of messages have other numbers.
+/// Number of the draw of back-offs; draws of messages have other numbers.
 constexpr std::uint32_t backoff_draw = 5;
 
-/// s: a random number of slots, by the present exponent.
+/// Returns a random back-off in s: a random number of slots by the present exponent.
 double backoff(const Radio& r, std::uint64_t seed) {
   const Random random(seed, fnv1a("backoff", r.key), r.access->draws++);
   const double slots = std::ldexp(1.0, int(r.access->exponent));
@@ -37,7 +37,7 @@ void drop_head(const Radio& r) {
     if (&f != head) r.frames.push_back(f);
 }
 
-/// Whether another radio is heard at `time`. `senders`: over the places.
+/// Returns whether a radio hears another one at `time`. `senders`: hash over the positions of all radios.
 bool is_busy(const Channel& channel, std::span<const Radio> radios, std::span<const Vec3> places,
              const SpatialHash& senders, double sensing, std::uint32_t number, double time, std::uint64_t seed) {
   const Radio& r = radios[number];
@@ -79,7 +79,7 @@ void SharedMedium::advance(const Channel& channel, std::span<const Radio> radios
     const Radio& r = radios[i];
     const Frame* head = first_waiting(r);
     if (!head) continue;
-    // a frame that has come to an idle radio has not contended yet
+    // a frame that has just come to an idle radio has not contended yet
     if (r.access->contending_for != head->number) {
       contend(r, std::max(head->handed_over, r.access->on_air_until), seed);
       r.access->contending_for = head->number;

@@ -9,11 +9,11 @@ namespace {
 const Settings shared = {{"medium", "shared"}, {"obstacles", "ignore"}};
 
 struct Load {
-  double throughput = 0;  ///< airtime of what came, per second
+  double throughput = 0;  ///< airtime of received frames, per second
   std::uint64_t sent = 0, received = 0, collisions = 0, no_access = 0;
 };
 
-/// A receiver in the middle, around it senders that have always something to send, 50 bytes (1.792 ms).
+/// A receiver in the middle, with senders around it that always have 50 bytes (1.792 ms) to send.
 Load loaded(const std::vector<Vec3>& senders, double seconds) {
   Radios s;
   s.place("receiver", {0, 0, 0});
@@ -74,7 +74,7 @@ TEST(RadioMedium, LosesBitsToOverlapByModulationToo) {
   EXPECT_GT(s.counters(0).received, 50u);
 }
 
-/// Robots that all send, at 50 Hz, with all that may be lost.
+/// Robots that all send at 50 Hz, with all causes of loss.
 struct Crowd : Radios {
   explicit Crowd(const char* medium, unsigned threads = 1, int robots = 60) : Radios(9) {
     for (int i = 0; i < robots; ++i) {
@@ -157,7 +157,7 @@ TEST(RadioMedium, AllocatesNothingOnceWarm) {
 #endif
 }
 
-/// What is logged when two robots talk by control code at 10 Hz.
+/// Returns what is logged when two robots talk by control code at 10 Hz.
 std::string logged(double rate, double keep) {
   Radios s;
   s.place("a", {0, 0, 0});
@@ -196,7 +196,7 @@ TEST(RadioControlCode, TalksByTypedPortsInC) {
   const Twist& shown = s.world().value(s.radios[0].robot->base(), keys::command_twist);
   EXPECT_EQ(shown.linear.y(), 1) << "from b";
   EXPECT_EQ(shown.linear.z(), 1) << "each message once: it is kept for the period of the control code";
-  // b has told at 0.9 s what it heard until then: what a has sent at 0, 0.1, ... 0.8 s
+  // at 0.9 s b has reported what it heard until then: the messages that a sent at 0, 0.1, ... 0.8 s
   EXPECT_EQ(shown.linear.x(), 9);
   EXPECT_EQ(s.counters(0).lost_overrun, 0u);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes what contacts do to a CSV file while the simulation runs; see README.md.
+// Writes contacts and their wrenches to a CSV file while the simulation runs; see README.md.
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -59,7 +59,7 @@ class ContactRecorder final : public Algorithm {
     for (const RobotView* robot : c.robots()) {
       if (!has(robot, keys::contact_wrenches_of_motion) &&
           !c.is_used(robot->base(), keys::external_wrench, usage::read_sum))
-        continue;  // no force moves it: what it does to others stands in their lists
+        continue;  // no force moves it: its contacts are in the lists of the robots that it pushes
       for (const Key<ContactWrench>* key : {&keys::contact_wrenches_of_motion, &keys::contact_wrenches_of_law})
         if (has(robot, *key))
           lists_.push_back({c.read_list(robot->base(), *key), c.read(robot->base(), keys::contact_world), robot->id});
@@ -84,7 +84,7 @@ class ContactRecorder final : public Algorithm {
     if (step.time <= last_time_) file_->cut_back(step.time);  // after a restored snapshot
     last_time_ = step.time;
     for (const RobotList& list : lists_) {
-      if (!is_moved_by_forces(*list.world)) continue;  // it stands in the list of the robot that is pushed, too
+      if (!is_moved_by_forces(*list.world)) continue;  // the list of the robot that is pushed holds these contacts, too
       for (const ContactWrench& contact : *list.contacts)
         if ((is_wanted(contact.body) || is_wanted(contact.other)) && !stands_before(list, contact))
           write(step.time, contact);
@@ -94,7 +94,7 @@ class ContactRecorder final : public Algorithm {
   void finish() override { file_->publish(); }
 
  private:
-  /// What an engine, or the contact algorithm, tells of a robot.
+  /// Contacts of a robot, as an engine or the contact algorithm reports them.
   struct RobotList {
     ListIn<ContactWrench> contacts;
     In<std::uint64_t> world;  ///< see keys::contact_world
@@ -121,7 +121,7 @@ class ContactRecorder final : public Algorithm {
     }
   }
 
-  /// Whether the list of a robot before has it, as the other body feels it.
+  /// Returns whether the list of an earlier robot already holds this contact, as the other body feels it.
   bool stands_before(const RobotList& own, const ContactWrench& contact) const {
     const RobotId other = contact.other == no_object ? no_robot : robot_of_[index_of(contact.other)];
     if (other >= own.robot) return false;  // no_robot is the last

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// recorder.contacts in real simulations: forces against statics and Coulomb's law, at every motion that forces move.
+// recorder.contacts in real simulations: forces against statics and Coulomb's law, with every motion that obeys forces.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ struct ContactScene : test::Scene {
     }
     return rows;
   }
-  /// Those of the last instant with rows.
+  /// Returns the rows of the last instant.
   std::vector<Row> last_rows() {
     std::vector<Row> last = rows();
     const double end = last.empty() ? 0 : last.back().time;
@@ -176,7 +176,7 @@ TEST_P(ContactsOf, WhatIsRecordedIsWhatIsToldOfTheBody) {
     s.run_for(1e-3);
     velocities.emplace_back(1e-3 * (i + 1), s.twist(*s.world().find_robot("ball")).linear);
   }
-  // with rows at 100 Hz the instants that are recorded are every tenth step: forces there are what velocities say
+  // rows at 100 Hz record every tenth step; the forces there match the changes of velocity
   for (const Row& r : s.rows()) {
     const auto step = std::size_t(std::lround(r.time * 1000));
     const std::size_t k = step - 1;

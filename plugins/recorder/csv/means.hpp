@@ -8,20 +8,20 @@
 
 namespace muro {
 
-/// The mean of each number of some properties, over the values that it is told of.
+/// Mean of each number of some properties, over the values that are added.
 class Means {
  public:
   Means() = default;
   explicit Means(std::vector<RecordedProperty> properties) : properties_(std::move(properties)) {}
 
-  /// Those of the properties, with ".mean" at their ends.
+  /// Returns the titles of the properties, with ".mean" at their ends.
   std::vector<std::string> titles() const {
     std::vector<std::string> titles;
     for (const RecordedProperty& p : properties_)
       for (const std::string& title : p.titles()) titles.push_back(title + ".mean");
     return titles;
   }
-  /// Begins with no values. The first call, after which properties have their sizes, allocates.
+  /// Removes all values. The first call allocates; properties must have their sizes by then.
   void begin() {
     std::size_t n = 0;
     for (const RecordedProperty& p : properties_) p.each([&](const void*) { ++n; });
@@ -37,7 +37,7 @@ class Means {
       });
     ++count_;
   }
-  /// Calls `visit` with each mean, in the order of the titles; they are no numbers where nothing was added.
+  /// Calls `visit` with each mean, in the order of the titles; the means are NaN when nothing was added.
   template <class Visit>
   void each(Visit visit) const {
     for (const double sum : sums_) visit(count_ > 0 ? sum / double(count_) : std::numeric_limits<double>::quiet_NaN());

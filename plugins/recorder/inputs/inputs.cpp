@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Records all that comes from outside of a simulation, and replays it; see README.md.
+// Records all inputs from outside a simulation, and replays them; see README.md.
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -102,7 +102,7 @@ class InputRecorder final : public Algorithm, private InputSink {
   ExternalInputs* inputs_ = nullptr;
   bool is_sink_ = false;
   std::optional<WholeFile> file_;
-  std::mutex mutex_;  ///< of lines_
+  std::mutex mutex_;  ///< guards lines_
   std::string lines_, written_;
   bool has_begun_ = false;
 };
@@ -134,7 +134,7 @@ class InputReplay final : public Algorithm {
 
   void step(const Step&, Range) override {}
 
-  /// Compares the end with that of the recorded run.
+  /// Compares the end of this run with the end of the recorded run.
   void finish() override {
     if (!end_) return;
     const auto end = std::tuple(end_->epoch, end_->time), now = std::tuple(inputs_->epoch(), inputs_->time());

@@ -21,7 +21,7 @@ constexpr std::string_view title = "muro external inputs";
 constexpr std::string_view version = "1";
 constexpr std::string_view columns = "epoch,time,channel,kind,source,bytes";
 
-/// Bytes that stand for themselves: printable ASCII without what the format uses.
+/// Returns whether a byte is written unchanged: printable ASCII without the characters that the format uses.
 bool is_plain(unsigned char c) { return c >= 0x20 && c < 0x7f && c != '%' && c != ','; }
 
 void add_escaped(std::string& out, std::string_view bytes) {
@@ -41,7 +41,7 @@ std::string hexadecimal(std::uint64_t x) {
   return text;
 }
 
-/// Takes a line apart, from left to right.
+/// Splits a line into fields, from left to right.
 class Line {
  public:
   Line(const std::string& path, std::size_t number, std::string_view text)
@@ -50,7 +50,7 @@ class Line {
   [[noreturn]] void fail(const std::string& what) const {
     throw Error(path_ + ":" + std::to_string(number_) + ":" + std::to_string(size_ - rest_.size() + 1) + ": " + what);
   }
-  /// Up to the next comma, which is left out, or to the end.
+  /// Returns the text up to the next comma, without the comma, or up to the end.
   std::string_view field() {
     const std::size_t comma = rest_.find(',');
     const std::string_view found = rest_.substr(0, comma);

@@ -15,7 +15,7 @@ struct Recorded : test::Scene {
     build();
     world().value(ball.base(), keys::command_twist).linear = {2, 0, 0};
   }
-  /// What stands in the report of a run of a second, by name.
+  /// Returns the contents of the report of a run of one second, by name.
   const ReportedNumbers::Section& written() {
     run_for(1);
     finish();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernels: the bounding boxes of robots of identical structure.
+// Kernels for the bounding boxes of robots of identical structure.
 #pragma once
 
 #include "muro/simd/isa.hpp"
@@ -9,9 +9,9 @@ namespace muro::bvh {
 
 using contact_geometry::PoseLocation, contact_geometry::RobotPoses;
 
-/// Bounds of some shapes of a robot: the points within `ball` of a box in a body, along the body's axes.
+/// Bounds of some shapes of a robot: the points within the distance `ball` of a box along the axes of a body.
 struct RoundedBox {
-  PoseLocation pose;      ///< of the body
+  PoseLocation pose;      ///< pose of the body
   double centre[3] = {};  ///< m
   double half[3] = {};    ///< m
   double ball = 0;        ///< m
@@ -19,13 +19,13 @@ struct RoundedBox {
   friend bool operator==(const RoundedBox&, const RoundedBox&) = default;
 };
 
-/// The input and output of one call: at most eight robots.
+/// Input and output of one call for at most eight robots.
 struct BoundsBatch {
-  const RoundedBox* boxes = nullptr;  ///< of each robot, one a body; at least one
+  const RoundedBox* boxes = nullptr;  ///< boxes of each robot, one for each body; at least one
   int box_count = 0;
-  int used = 0;  ///< robots
+  int used = 0;  ///< number of robots
   RobotPoses poses[8];
-  double* bounds[8];  ///< of each robot: low and high of its AABB, which is written, then of its fat AABB
+  double* bounds[8];  ///< by robot: low and high of its AABB, which is written, then those of its fat AABB
 };
 
 struct BoundsKernels {

@@ -5,10 +5,10 @@
 namespace muro::bvh {
 namespace {
 
-// hides ::abs and the like
+// hides ::abs and similar functions
 using lane::abs, lane::bits, lane::count_of, lane::max, lane::min, lane::Places, lane::V3;
 
-/// As many robots as the scalar has values, from number `first` on.
+/// Updates as many robots as the scalar has values, beginning with number `first`.
 template <class S>
 unsigned update_some(const BoundsBatch& batch, int first) {
   const int left = batch.used - first, used = left < count_of<S> ? left : count_of<S>;

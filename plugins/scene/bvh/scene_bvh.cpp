@@ -25,11 +25,11 @@ constexpr PropertyUse writes[] = {{"scene.index", "on the world object"}};
 
 constexpr Phase all_phases[] = {{Phase::IndexSpace::robots, Phase::Scope::own_robot}, {Phase::IndexSpace::whole}};
 
-/// Fraction of the margin that is moved from behind to ahead of a robot that has left its fat AABB: it probably goes
-/// on.
+/// Fraction of the margin that is moved from behind to ahead of a robot that has left its fat AABB: the robot will
+/// probably move on in the same direction.
 constexpr double shift_ahead = 0.75;
 
-// the layout that BoundsBatch::bounds relies on
+// BoundsBatch::bounds relies on this layout
 static_assert(offsetof(RobotColliders, fat_aabb) == offsetof(RobotColliders, bounds) + 6 * sizeof(double));
 
 }  // namespace
@@ -45,7 +45,7 @@ constinit const Description description{
     .capabilities = deterministic | allocation_free | restorable,
 };
 
-/// The shape itself, or the bounding box of a mesh or heightmap. None if an algorithm before has refused its file.
+/// Returns the shape, or the bounding box of a mesh or heightmap; nothing if an earlier algorithm refused its file.
 std::optional<Shape> SceneBvh::bounding_shape(Connector& c, ObjectId body, const Shape& shape) {
   const bool is_mesh = shape.kind == ShapeKind::mesh;
   if (!is_mesh && shape.kind != ShapeKind::heightmap) return shape;
@@ -186,7 +186,7 @@ void SceneBvh::update_bounds(Range block) {
 }
 
 void SceneBvh::set_fat_aabb(std::uint32_t robot) {
-  constexpr double farthest = 1e15;  // m; also to find what is not a number
+  constexpr double farthest = 1e15;  // m; the comparisons also find values that are no numbers
   RobotColliders& r = robots_[robot];
   if (!(r.bounds.low.minCoeff() >= -farthest && r.bounds.high.maxCoeff() <= farthest) || !r.bounds.low.allFinite() ||
       !r.bounds.high.allFinite())
@@ -206,7 +206,7 @@ void SceneBvh::set_fat_aabb(std::uint32_t robot) {
   outside_[robot] = 0;
 }
 
-/// Of robots that have left their fat AABBs.
+/// Updates the tree for the robots that have left their fat AABBs.
 void SceneBvh::update_tree() {
   if (outside_.empty()) return;
   const std::uint64_t before = all_changes_;

@@ -46,23 +46,23 @@ class SceneBvh final : public Algorithm {
   std::deque<Pose> scenery_poses_;
   std::vector<std::uint32_t> planes_;
   std::vector<RobotColliders> robots_;
-  std::uint32_t scenery_ = 0;  ///< so many colliders at the front are scenery
+  std::uint32_t scenery_ = 0;  ///< number of colliders of scenery, which come first
 
   mesh::Store meshes_;
   heightmap::Store heightmaps_;
-  std::vector<Shape> bounding_shapes_;  ///< by collider: itself; of a mesh or heightmap its bounding box
+  std::vector<Shape> bounding_shapes_;  ///< by collider: its shape; of a mesh or heightmap the bounding box
 
-  std::vector<RobotGroup<std::vector<RoundedBox>>> groups_;  ///< of robots that have bounds
+  std::vector<RobotGroup<std::vector<RoundedBox>>> groups_;  ///< groups of robots that have bounds
   std::vector<RobotPoses> poses_;                            ///< by robot
   std::vector<const RobotView*> views_;                      ///< by robot, for messages
 
   std::vector<std::uint32_t> members_;  ///< robots that have bounds
-  std::vector<std::uint32_t> in_tree_;  ///< those of them that others touch and see
-  std::set<std::uint32_t> shadows_;     ///< the others
+  std::vector<std::uint32_t> in_tree_;  ///< members that others touch and see
+  std::set<std::uint32_t> shadows_;     ///< the other members
   std::vector<std::uint8_t> outside_;   ///< by robot: is not within its fat AABB
-  std::vector<std::uint64_t> changes_;  ///< of fat AABBs, by robot
-  std::uint64_t all_changes_ = 0;       ///< their sum
-  BoxTree scenery_tree_, moving_tree_;  ///< the second: of fat AABBs
+  std::vector<std::uint64_t> changes_;  ///< number of changes of fat AABBs, by robot
+  std::uint64_t all_changes_ = 0;       ///< sum of changes_
+  BoxTree scenery_tree_, moving_tree_;  ///< moving_tree_ holds fat AABBs
 };
 
 }  // namespace muro::bvh

@@ -12,7 +12,7 @@ namespace {
 
 using test::CollisionScene, test::Crowd, test::mesh_shape, test::meshed_body, test::wedge;
 
-/// How far a shape reaches along each axis of the world.
+/// Returns half the extent of a shape along each axis of the world.
 Vec3 reach_of(const Shape& s, const Quat& turn) {
   const Mat3 axes = turn.toRotationMatrix();
   const Vec3 up = axes.col(2).cwiseAbs();
@@ -79,7 +79,7 @@ TEST(SceneBvh, AFatAabbReachesFurtherToWhereItsRobotGoes) {
     return index.changes[0] - before;
   };
   EXPECT_EQ(changes_on_the_way(0), 0u);
-  // 0.1 m and three quarters of that on the other side: left with each 25th or 26th step of 7 mm
+  // 0.1 m ahead, and three quarters of the 0.1 m behind: each 25th or 26th step of 7 mm leaves the fat AABB
   EXPECT_NEAR(double(changes_on_the_way(7)), 39.5, 1);
   EXPECT_NEAR(double(changes_on_the_way(-7)), 39.5, 1);
 }

@@ -11,18 +11,18 @@ using namespace contact_geometry;
 
 namespace {
 
-/// By so much the diagonal of a box may grow on the way towards the root.
+/// Greatest factor by which the diagonal of a box may grow on the way towards the root.
 constexpr double max_growth = 1.25;
-/// Added to every side (m), so that a shape is within its box in spite of rounding.
+/// Margin of every side (m), so that a shape is within its box in spite of rounding.
 constexpr double rounding = 1e-9;
 
-/// Half the extent of a cylinder along each axis of its link.
+/// Returns half the extent of a cylinder along each axis of its link.
 Vec3 cylinder_extent(const TransformedShape& c) {
   const Vec3 u = c.axis();
   return c.half.z() * u.cwiseAbs() + c.radius() * (1 - u.array().square()).max(0).sqrt().matrix();
 }
 
-/// Half the extent of the shape along each axis of its link, less the radius by which it is rounded.
+/// Returns half the extent of the shape along each axis of its link, less the radius by which it is rounded.
 Vec3 core_of(const TransformedShape& s) {
   switch (s.kind) {
     case ShapeKind::cylinder:
@@ -40,7 +40,7 @@ double ball_of(const TransformedShape& s) {
 }
 double diagonal_of(const TransformedShape& s) { return (core_of(s) + Vec3::Constant(ball_of(s))).norm(); }
 
-/// The extent of a shape along and away from a line through its centre.
+/// Extent of a shape along a line through its centre, and perpendicular to it.
 struct Extent {
   double along, away;
 };
@@ -65,7 +65,7 @@ Extent extent_about(const TransformedShape& s, const Vec3& line) {
   }
 }
 
-/// The cylinder in which a shape stays while it rotates about `axis` (unit, through the origin).
+/// Returns the cylinder in which a shape stays while it rotates about `axis` (unit vector, through the origin).
 TransformedShape revolved_about(const TransformedShape& s, const Vec3& axis) {
   const double height = axis.dot(s.centre), off = (s.centre - height * axis).norm();
   const Extent extent = extent_about(s, axis);

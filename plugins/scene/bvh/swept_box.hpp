@@ -8,7 +8,7 @@
 
 namespace muro::bvh {
 
-/// The points within `ball` of a box in the axes of a link.
+/// Points within the distance `ball` of a box along the axes of a link.
 struct LinkBox {
   std::uint32_t link = 0;
   Vec3 centre = Vec3::Zero();  ///< m

@@ -9,7 +9,7 @@
 
 namespace muro::view {
 
-/// The poses of the links of all robots, and of the laser scanners and cameras on them.
+/// Poses of the links of all robots, and of the laser scanners and cameras on them.
 class BodyPoses {
  public:
   struct Body {
@@ -25,7 +25,7 @@ class BodyPoses {
       for (const Link& link : robot->links) add(c, link.object, robot->id, link.object == robot->base());
     link_count_ = bodies_.size();
   }
-  /// After the links, when all sensors have connected. [setup]
+  /// Called after connect_links, when all sensors have connected. [setup]
   void connect_sensors(Connector& c) {
     for (std::uint32_t i = 0; i < c.object_count(); ++i)
       if (const RobotId robot = c.robot_of(ObjectId(i)); robot != no_robot)
@@ -36,7 +36,7 @@ class BodyPoses {
 
   std::span<const Body> all() const { return bodies_; }
   std::span<const Body> links() const { return {bodies_.data(), link_count_}; }
-  /// Null for an object that is none of them.
+  /// Returns the pose of an object, or null when it is not among them.
   const Pose* find(ObjectId object) const {
     for (const Body& b : bodies_)
       if (b.object == object) return b.pose.get();

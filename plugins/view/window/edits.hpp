@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the user enters for a property.
+// Values that the user enters for properties.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace muro::view {
 
-/// Asks the host for changes of state: it carries them out between steps, tells all that keep something of the state,
-/// and records them. A pose or a velocity is changed by placing.
+/// Asks the host for changes of state. The host makes them between steps, informs all parts that keep something of the
+/// state, and records the changes. A pose or a velocity is changed by placing.
 class Edits final : public RequestDone {
  public:
   void connect(RunControl& control) { control_ = &control; }
-  /// Scalar `i` of a property of `object` is to be `value`.
+  /// Requests `value` for scalar `i` of a property of `object`.
   void enter(Inspection& simulation, ObjectId object, const LiveProperty& property, std::uint32_t i, double value);
-  /// Why the last one was refused; empty where it was not.
+  /// Returns why the last request was refused; empty when it was not.
   const std::string& problem() const { return problem_; }
   void forget_problem() { problem_.clear(); }
 

@@ -12,7 +12,7 @@ namespace muro::view {
 
 namespace {
 
-/// m, from which a ball is seen.
+/// Returns the distance in m from which all of a ball is visible.
 double viewing_distance(double radius) { return std::max(1.0, 2.2 * radius); }
 
 }  // namespace

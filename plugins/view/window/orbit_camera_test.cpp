@@ -8,7 +8,7 @@
 namespace muro::view {
 namespace {
 
-/// Where something is in the picture: right and up, per metre ahead.
+/// Returns the position of a point in the picture: right and up, per metre ahead.
 Eigen::Vector2d seen(const OrbitCamera& camera, const Vec3& at) {
   const Vec3 p = camera.pose().inverse() * at;
   return {-p.y() / p.x(), p.z() / p.x()};

@@ -12,7 +12,7 @@ namespace {
 
 const Vec3 red(0.95, 0.2, 0.15), green(0.2, 0.8, 0.2), blue(0.25, 0.4, 1), orange(1, 0.6, 0.1);
 
-/// The value of a property; `default_value` where it is missing.
+/// Returns the value of a property, or `default_value` when it is missing.
 template <class T>
 T value_of(std::span<const LiveProperty> properties, const Key<T>& key, const T& default_value) {
   for (const LiveProperty& p : properties)
@@ -48,7 +48,7 @@ void Overlay::add_scan(Inspection& simulation, ObjectId sensor, render::DebugLin
   const std::span<const double> ranges = values_of(properties, keys::ranges);
   const auto columns = value_of(properties, keys::laser_columns, 0U);
   const double increment = value_of(properties, keys::laser_angle_increment, 0.0);
-  if (columns == 0 || (columns > 1 && increment == 0)) return;  // a list of directions
+  if (columns == 0 || (columns > 1 && increment == 0)) return;  // the sensor has a list of directions
   const Pose device = value_of(properties, keys::pose, Pose{}) * value_of(properties, keys::sensor_origin, Pose{});
   const double first = value_of(properties, keys::laser_min_angle, 0.0);
   const double low = value_of(properties, keys::laser_min_elevation, 0.0);

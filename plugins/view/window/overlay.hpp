@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Debug drawing over the scene, which no sensor sees.
+// Debug drawing over the scene. No sensor sees it.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ class Overlay {
 
   /// Finds the laser scanners. [setup]
   void connect_by_name(Connector& c);
-  /// Adds what is to be drawn now. `selected`: an object whose robot is shown with the frames of all its links.
+  /// Adds lines and points of this frame. `selected`: an object whose robot is shown with the frames of all its links.
   void collect(Inspection& simulation, const BodyPoses& bodies, ObjectId selected, render::DebugLines& lines) const;
 
  private:

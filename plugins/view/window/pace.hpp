@@ -6,7 +6,7 @@
 
 namespace muro::view {
 
-/// When simulated time may go on, by the wall clock: playing at a speed, paused, or a step at a time. All times in s.
+/// Decides by the wall clock when simulated time may go on: at a speed, paused, or one step at a time. All times in s.
 class Pace {
  public:
   /// `speed`: simulated seconds per second; 0: as fast as possible.
@@ -29,7 +29,7 @@ class Pace {
   }
 
   bool paused() const { return paused_; }
-  /// Whether one frame is to be made; told once.
+  /// Returns whether a step was asked for, and forgets it.
   bool take_step() { return std::exchange(stepping_, false); }
   double speed() const { return speed_; }
   void set_paused(bool paused) { paused_ = paused; }
@@ -37,7 +37,7 @@ class Pace {
     speed_ = speed;
     has_begun_ = false;
   }
-  /// Simulated time has jumped.
+  /// Begins anew after a jump of simulated time.
   void begin_anew() { has_begun_ = false; }
   /// Lets a paused run go on to the next frame.
   void step() { stepping_ = paused_ = true; }

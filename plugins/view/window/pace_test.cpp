@@ -6,7 +6,7 @@
 namespace muro::view {
 namespace {
 
-/// How far a run of steps of 10 ms comes while the wall clock goes from `from` to `to`, looked at each millisecond.
+/// Returns the simulated time that steps of 10 ms reach while the wall clock goes from `from` to `to`, checked each ms.
 double run(Pace& pace, double simulated, double from, double to) {
   for (double wall = from; wall < to; wall += 1e-3)
     if (pace.may_go_on(simulated, wall)) simulated += 0.01;
@@ -54,7 +54,7 @@ TEST(ThePaceOfAWindow, ChangesFromWhereItIs) {
 TEST(ThePaceOfAWindow, DoesNotRunAfterTimeThatItLost) {
   Pace pace(1, false);
   double t = run(pace, 0, 0, 1);
-  t = run(pace, t, 8, 9);  // nobody looked for 7 s
+  t = run(pace, t, 8, 9);  // nobody calls it for 7 s
   EXPECT_NEAR(t, 2, 0.05);
 }
 

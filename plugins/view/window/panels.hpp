@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the window shows beside the scene, and what its buttons do.
+// Panels beside the scene, and the actions of their buttons.
 #pragma once
 
 #include <array>
@@ -18,17 +18,17 @@ namespace muro::view {
 class Panels {
  public:
   ObjectId selected = no_object;
-  bool show_all_requested = false;  ///< by the user: all robots in view
+  bool show_all_requested = false;  ///< the user wants all robots in view
   Edits edits;
 
   /// Remembers the tree of robots. [setup]
   void connect(Connector& c);
-  /// Simulated time has jumped.
+  /// Begins anew after a jump of simulated time.
   void begin_anew() { last_wall_ = last_simulated_ = 0; }
-  /// Draws all and does what buttons and keys say. `simulated`, `wall`: s.
+  /// Draws all panels and carries out what buttons and keys ask for. `simulated`, `wall`: s.
   void draw(Inspection& simulation, Pace& pace, OrbitCamera& camera, Overlay& overlay, double simulated, double wall);
   void press(Key key, Pace& pace, OrbitCamera& camera);
-  /// Where the scene is not covered: left, top, right, bottom, in pixels.
+  /// Returns the area that panels do not cover: left, top, right, bottom, in pixels.
   std::array<double, 4> free_area(double width, double height) const;
 
  private:

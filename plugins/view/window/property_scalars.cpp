@@ -27,7 +27,7 @@ template <class T>
 void write(std::byte* at, double number) {
   T value{};
   if constexpr (std::is_integral_v<T>) {
-    // the greatest double that the type holds, and no NaN
+    // the greatest double that the type holds; NaN becomes 0
     const double most = std::nextafter(std::ldexp(1.0, std::numeric_limits<T>::digits), 0.0);
     value = std::isnan(number) ? T(0) : T(std::clamp(number, double(std::numeric_limits<T>::lowest()), most));
   } else {
@@ -44,7 +44,7 @@ void write(Scalar kind, std::byte* at, double number) {
   with_scalar(kind, [&]<class T>(T) { write<T>(at, std::is_integral_v<T> ? std::round(number) : number); });
 }
 
-/// Whether an element may have the value that it has now, with `entered` as one of its numbers.
+/// Returns whether an element may have its present value, with `entered` as one of its numbers.
 bool is_possible(const ValueType& type, std::byte* element, double entered) {
   constexpr double largest = 1e15;
   if (!limits::within(largest, entered)) return false;

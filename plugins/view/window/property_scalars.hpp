@@ -8,13 +8,13 @@
 
 namespace muro::view {
 
-/// A scalar of a property, by its number among all elements' scalars.
+/// Scalars of a property, numbered through all of its elements.
 struct Scalars {
   explicit Scalars(const LiveProperty& p) : property(p) {}
 
-  /// How many; 0 for what has none (opaque values).
+  /// Returns the number of scalars; 0 for opaque values.
   std::uint32_t size() const;
-  /// "x", "[3]", "[3].x"; empty for a single number.
+  /// Returns "x", "[3]" or "[3].x"; empty for a single number.
   std::string label(std::uint32_t i) const;
   double get(std::uint32_t i) const;
   /// Leaves the property as it is, and returns false, when its value would be out of range (muro/base/limits.hpp).
@@ -24,7 +24,7 @@ struct Scalars {
   const LiveProperty& property;
 };
 
-/// Everything in a line, shortened: "1.25, -0.5, 3"; for what has no numbers, what it is.
+/// Returns all values in one line, shortened: "1.25, -0.5, 3". For a property without numbers: count and type.
 std::string summary_of(const LiveProperty& property, const Inspection& simulation);
 
 }  // namespace muro::view

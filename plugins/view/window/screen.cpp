@@ -2,7 +2,7 @@
 #include "screen.hpp"
 
 #include <epoxy/gl.h>
-// behind epoxy, which stands in for the headers of OpenGL
+// must come after epoxy, which replaces the headers of OpenGL
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
@@ -18,18 +18,18 @@
 
 #include "muro/algorithm.hpp"
 
-// Of GLFW for X11, where that is what GLFW was built for.
+// Function of GLFW for X11; null when GLFW was built without X11.
 extern "C" __attribute__((weak)) void* glfwGetX11Display();
 
 namespace muro::view {
 
 namespace {
 
-bool is_open = false;  ///< GLFW and ImGui know one thread and one window of ours
+bool is_open = false;  ///< GLFW and ImGui allow this program one thread and one window
 std::atomic<bool> display_lost{false};
 
-/// Xlib ends the process when a display goes away, unless it is told otherwise. Of other displays of the program it is
-/// told nothing.
+/// Keeps Xlib from ending the process when the display of the window goes away. Losses of other displays of the program
+/// go to the previous handler.
 class DisplayLoss {
  public:
   using Handler = int (*)(void* display);
@@ -43,7 +43,7 @@ class DisplayLoss {
     set_ = reinterpret_cast<Handler (*)(Handler)>(dlsym(library_, "XSetIOErrorHandler"));
     const auto set_exit =
         reinterpret_cast<void (*)(void*, ExitHandler, void*)>(dlsym(library_, "XSetIOErrorExitHandler"));
-    if (!set_ || !set_exit) return;  // an Xlib that always ends the process
+    if (!set_ || !set_exit) return;  // this Xlib always ends the process
     set_exit(
         display_, [](void*, void*) { display_lost = true; }, nullptr);
     before_ = set_(&take);
@@ -96,7 +96,7 @@ Screen::Screen(const std::string& title, int width, int height) {
   }
   display_loss.begin();
   glfwMakeContextCurrent(window_);
-  glfwSwapInterval(0);  // waiting for the screen would hold the simulation up
+  glfwSwapInterval(0);  // waiting for the screen would slow the simulation down
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
@@ -105,7 +105,7 @@ Screen::Screen(const std::string& title, int width, int height) {
   style.WindowRounding = 4;
   style.Colors[ImGuiCol_WindowBg].w = 0.85F;
   glfwSetWindowUserPointer(window_, this);
-  glfwSetKeyCallback(window_, &Screen::on_key);  // before those of ImGui, which call this one
+  glfwSetKeyCallback(window_, &Screen::on_key);  // set before the callback of ImGui, which calls this one
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   ImGui_ImplOpenGL3_Init("#version 450");
   glfwMakeContextCurrent(nullptr);
@@ -146,7 +146,7 @@ void Screen::on_key(GLFWwindow* window, int key, int, int action, int) {
 }
 
 void Screen::begin() {
-  if (frame_begun_) ImGui::EndFrame();  // one that could not be drawn
+  if (frame_begun_) ImGui::EndFrame();  // the last frame could not be drawn
   frame_begun_ = false;
   glfwPollEvents();
   if (display_lost) return;

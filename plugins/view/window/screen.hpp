@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A window of the window system with OpenGL, and what the user does in it (GLFW, Dear ImGui).
+// A window of the window system with OpenGL, and the input of its user (GLFW, Dear ImGui).
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ namespace muro::view {
 
 enum class Key { space, right, escape, home };
 
-/// Everything from one thread.
+/// A window. One thread calls all of its functions.
 class Screen {
  public:
-  /// Throws muro::Error where no window can be opened, with what to do.
+  /// Throws muro::Error when no window can be opened; the message says what to do.
   Screen(const std::string& title, int width, int height);
   ~Screen();
   Screen(const Screen&) = delete;
@@ -24,10 +24,10 @@ class Screen {
   bool is_closed() const;
   /// Whether the display has gone: nothing can be drawn any more.
   bool is_lost() const;
-  /// Takes what the user did since the last frame and begins the next. Size in pixels. Not when the display is lost,
-  /// which may happen here.
+  /// Takes the input since the last frame and the size in pixels, and begins the next frame. Begins none when the
+  /// display is lost, which may happen here.
   void begin();
-  /// Keys that were pressed since the frame before, however shortly.
+  /// Keys that were pressed since the last frame, even if they were released at once.
   const std::vector<Key>& keys() const { return keys_; }
   int width() const { return width_; }
   int height() const { return height_; }
@@ -35,10 +35,10 @@ class Screen {
   /// rows from the top.
   void end(std::vector<std::uint8_t>* picture = nullptr);
 
-  /// Whether the processor draws.
+  /// Whether the processor draws instead of a GPU.
   bool is_software() const;
-  /// While it lives, the window's context is current in this thread; then none is: cameras and lasers have contexts of
-  /// their own, by EGL, which is refused where one of a window is current.
+  /// Keeps the window's context current in this thread while it lives; then no context is current. Cameras and lasers
+  /// have contexts of their own by EGL, which refuses them while a window's context is current.
   class Current {
    public:
     explicit Current(const Screen& screen);

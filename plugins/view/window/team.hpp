@@ -8,11 +8,11 @@
 
 namespace muro::view {
 
-/// The robots that the window follows by itself: those whose base is not where it was at the start, or all while none
-/// has moved. Shadows are left out.
+/// Robots that the window follows on its own: those that have moved away from their start, or all robots while none has
+/// moved. Shadows are left out.
 class Team {
  public:
-  /// `bodies`: with the links of all robots. [setup]
+  /// Takes the robots, and the links of all robots from `bodies`. [setup]
   void connect(const Connector& c, const BodyPoses& bodies) {
     robots_.resize(c.robots().size());
     for (const RobotView* robot : c.robots()) {
@@ -25,9 +25,9 @@ class Team {
 
   struct Ball {
     Vec3 middle = Vec3::Zero();  ///< m
-    double radius = 0;           ///< m: of the origins of the links
+    double radius = 0;           ///< m: contains the origins of the links
   };
-  /// Around these robots as they are now.
+  /// Returns a ball around the followed robots at their present poses.
   Ball bounds() {
     bool any = false;
     for (const BodyPoses::Body& b : links_) {
@@ -50,7 +50,7 @@ class Team {
 
  private:
   static constexpr double moved = 0.1;   ///< m: a robot that is nearer to its start has not moved
-  static constexpr double beyond = 1e6;  ///< m: what is farther away is not followed
+  static constexpr double beyond = 1e6;  ///< m: links farther away are not followed
   struct Robot {
     Vec3 start = Vec3::Zero();
     bool is_shadow = false, has_moved = false;

@@ -28,7 +28,7 @@ namespace {
 using namespace muro;
 using view::OrbitCamera;
 
-constexpr double tolerance = 1e-3;  ///< m: by which the polygons that stand for circles may be too small
+constexpr double tolerance = 1e-3;  ///< m: greatest distance of the polygons from their circles
 constexpr double fov = 0.9;         ///< rad, vertical
 
 constexpr Parameter parameters[] = {
@@ -129,12 +129,12 @@ class Window final : public Algorithm, private PauseAttendant {
     return whole;
   }
 
-  /// Returns when the run may go on, and draws meanwhile; when it is on time it draws only if the last frame is old
-  /// enough. A paused run is held by the host.
+  /// Draws until the run may go on, then returns. When the run may go on at once, it draws only if the last frame is
+  /// old enough. The host holds a paused run.
   void step(const Step& step, Range) override {
     last_time_ = step.seconds();
     if (screen_->is_lost() || screen_->is_closed()) return;
-    if (has_paused_) pace_.set_paused(false);  // somebody else lets the run go on
+    if (has_paused_) pace_.set_paused(false);  // another client has let the run go on
     has_paused_ = false;
     for (;;) {
       const double now = wall_time();
@@ -163,7 +163,7 @@ class Window final : public Algorithm, private PauseAttendant {
   using Clock = std::chrono::steady_clock;
 
   static Vec3 vector(std::span<const double> v) { return {v[0], v[1], v[2]}; }
-  /// While the run is paused, by whomever.
+  /// Draws while the run is paused, whoever paused it.
   void attend() noexcept override {
     try {
       const double now = wall_time();
@@ -177,14 +177,14 @@ class Window final : public Algorithm, private PauseAttendant {
     }
   }
 
-  /// False: the window is gone, or closed, which ends the run.
+  /// Returns false when the window is lost, or closed, which ends the run.
   bool show_frame(double now) {
     draw(last_time_);
     if (screen_->is_lost()) {
       host_->log(LogLevel::warning, "the display of the window is gone; the run goes on without it");
       return false;
     }
-    // At most half of the time is spent drawing: where a frame takes long, fewer are shown.
+    // Drawing takes at most half of the time: when a frame takes long, fewer frames are shown.
     next_frame_ = std::max(now + period_, wall_time() + (wall_time() - now));
     if (screen_->is_closed()) simulation_->stop();
     return !screen_->is_closed();
@@ -221,8 +221,8 @@ class Window final : public Algorithm, private PauseAttendant {
     orbit_camera_.approach(ball.middle, std::max(least_radius, ball.radius), part, keeps_distance_);
   }
 
-  /// Stays with the robots that move, until the user shifts the view or looks at something else. It follows in
-  /// simulated time, so that it rests while the run does.
+  /// Follows the robots that move, until the user shifts the view or changes the mode of the camera. Follows in
+  /// simulated time, so that the view rests while the run is paused.
   void follow_team(double simulated) {
     constexpr double slowness = 0.5;  // s
     const double dt = std::max(0.0, simulated - followed_until_);
@@ -307,7 +307,7 @@ class Window final : public Algorithm, private PauseAttendant {
     if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !dragged) pick(io.MousePos.x, io.MousePos.y);
   }
 
-  /// Selects the object that is seen at a pixel.
+  /// Selects the object that is visible at a pixel.
   void pick(float x, float y) {
     const render::Camera c = camera();
     if (x < 0 || y < 0 || x >= float(c.width) || y >= float(c.height)) return;
@@ -341,7 +341,7 @@ class Window final : public Algorithm, private PauseAttendant {
   Host* host_ = nullptr;
   Inspection* simulation_ = nullptr;
   RunControl* control_ = nullptr;
-  bool has_paused_ = false;  ///< the run stands because the user wants it
+  bool has_paused_ = false;  ///< the user has paused the run
   render::Scene scene_;
   render::Daylight light_;
   view::BodyPoses bodies_;
@@ -352,7 +352,7 @@ class Window final : public Algorithm, private PauseAttendant {
   bool shows_all_ = true, starts_behind_target_ = false;
   view::Team team_;
   bool follows_team_ = false;    ///< the camera stays with the robots that move
-  bool keeps_distance_ = false;  ///< at the distance that the user has chosen
+  bool keeps_distance_ = false;  ///< the user has chosen the distance
   double followed_until_ = 0;    ///< s of simulated time
   Clock::time_point start_time_;
   double next_frame_ = 0;  ///< s of the wall clock since the start

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The window as a user has it: on a display without a screen (Xvfb), driven by mouse and keys (xdotool), looked at by
-// what it shows.
+// The window as a user sees it: on a display without a screen (Xvfb), driven by mouse and keys (xdotool), checked by
+// its pictures.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -68,7 +68,7 @@ Vec3 about(const Picture& picture, std::uint32_t x, std::uint32_t y) {
 }
 
 constexpr int width = 1100, height = 700;
-constexpr int middle_x = 679, middle_y = 286;  ///< of what the panels leave free
+constexpr int middle_x = 679, middle_y = 286;  ///< middle of the area that the panels leave free
 
 /// A red box on the ground in the middle of the window, a robot that drives behind it.
 struct Show : test::Scene {
@@ -184,9 +184,9 @@ TEST_F(TheWindow, GivesTheSameStateAsWithoutIt) {
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-/// Runs so long in simulated time, while a user first watches for a second and then does `act`, again and again until
-/// the run is over: on a busy machine two clicks may fall into one frame, and count as one. Returns how often, or 0
-/// when the run was over before.
+/// Runs for `seconds` of simulated time. Meanwhile a user watches for a second, and then repeats `act` until the run is
+/// over: on a busy machine two clicks may fall into one frame and count as one. Returns the number of acts, or 0 when
+/// the run was over before.
 int acts_until_over(Simulation& simulation, double seconds, const std::function<void()>& act) {
   std::atomic<bool> over{false};
   int acts = 0;
@@ -237,7 +237,7 @@ TEST_F(TheWindow, ShowsThePropertiesOfWhatIsClickedOn) {
   s.use_window({{"paused", true}});
   const Vec3 corner = [&] {
     acts_until_over(s, 0.1, [] {
-      for (int i = 0; i < 2; ++i) {  // on a machine with much to do a frame may take longer than a click
+      for (int i = 0; i < 2; ++i) {  // on a busy machine a frame may take longer than a click
         click(middle_x, middle_y);
         std::this_thread::sleep_for(500ms);
       }
@@ -249,14 +249,14 @@ TEST_F(TheWindow, ShowsThePropertiesOfWhatIsClickedOn) {
   EXPECT_LT(corner.sum(), 330) << "a panel where the scene was";
 }
 
-/// The x of a robot whose pose a user edits, with pauses of so much between what hands do.
+/// Returns the x of a robot whose pose a user edits, with `pause` between the actions.
 double edited_x(std::chrono::milliseconds pause) {
   Show s;
   s.use_window({{"paused", true}, {"follow", std::string("robot")}});
   s.world().value(s.robot->base(), keys::command_twist) = {};
   bool edited = false;
   const auto act = [&] {
-    // the fifth row, behind constants of the model, is the pose: opens it, and writes another x
+    // the fifth row, after constants of the model, is the pose: opens it and enters another x
     TheWindow::click(731, 182);
     std::this_thread::sleep_for(pause);
     TheWindow::click(805, 202);
@@ -277,7 +277,7 @@ double edited_x(std::chrono::milliseconds pause) {
 
 TEST_F(SlowWindow, ChangesAPropertyThatTheUserEdits) {
   double x = edited_x(500ms);
-  for (int tries = 0; tries < 3 && x != 2.5; ++tries) x = edited_x(2s);  // a busy machine misses hands that hurry
+  for (int tries = 0; tries < 3 && x != 2.5; ++tries) x = edited_x(2s);  // a busy machine misses fast input
   EXPECT_EQ(x, 2.5);
 }
 

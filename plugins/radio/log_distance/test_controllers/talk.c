@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Tells all others, once a step, how many messages it has heard, and shows what the last one told: vx is the number in
- * its text, vy its sender, vz the messages in the list. */
+ * Sends all others, once a step, the number of messages that it has heard, and shows the last message: vx is the number
+ * in its text, vy its sender, vz the number of messages in the list. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -16,7 +16,7 @@ namespace muro {
 
 namespace {
 
-/// The decimal seconds at the beginning of a row as ns; -1 when there are none (the header).
+/// Returns the decimal seconds at the beginning of a row as ns; -1 when there are none (the header).
 std::int64_t time_of(std::string_view row) {
   std::int64_t value = 0;
   int decimals = -1;
@@ -46,7 +46,7 @@ CsvFile::CsvFile(const std::string& path) : file_(path, {.keep_unpublished = tru
 CsvFile::~CsvFile() {
   try {
     if (!failed_) flush();
-  } catch (const Error&) {  // nobody is left to be told
+  } catch (const Error&) {  // a destructor cannot report it
   }
 }
 
@@ -96,7 +96,7 @@ void CsvFile::end_row() {
   if (buffer_.size() >= buffer_bytes) flush();
 }
 
-/// On a full disk the file keeps the rows that are whole.
+/// Keeps the complete rows in the file when the disk is full.
 void CsvFile::flush() {
   const off_t begin = file_.is_regular() ? lseek(file_.descriptor(), 0, SEEK_CUR) : -1;
   try {

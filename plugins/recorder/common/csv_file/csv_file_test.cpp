@@ -44,7 +44,7 @@ TEST(Glob, StarsAndQuestionMarksStandForCharacters) {
   EXPECT_FALSE(matches("a*?", "a"));
 }
 
-/// `*` and `?` by their definition: every split is tried.
+/// Matches `*` and `?` by their definition: tries every split.
 bool matches_by_definition(std::string_view pattern, std::string_view text) {
   if (pattern.empty()) return text.empty();
   if (pattern[0] == '*')
@@ -215,7 +215,7 @@ TEST(CsvFile, WritesAPipeToItsReader) {
   EXPECT_EQ(seen, "0,1\r\n");
 }
 
-/// A limit of the size of files stands for a full disk. In a process of its own, since it holds for all of it.
+/// A limit on file sizes replaces a full disk. It holds for the whole process, so this test runs in one of its own.
 TEST(CsvFile, OnAFullDiskKeepsItsWholeRows) {
   const ScratchFolder folder;
   const std::string path = folder.file("a.csv", "old");
@@ -229,7 +229,7 @@ TEST(CsvFile, OnAFullDiskKeepsItsWholeRows) {
       said = complaint_of<Error>([&] {
         for (int i = 0; i < 100'000; ++i) add_row(file, i * 1'000'000L, 0.1);
       });
-      file.publish();  // the failure has been told
+      file.publish();  // the failure has been reported
     }
     std::_Exit(said == "file " + path + " cannot be written: File too large" ? 0 : 1);
   };

@@ -13,7 +13,7 @@ namespace muro {
 
 namespace {
 
-/// Why a property cannot stand in columns; "" when it can.
+/// Returns why a property does not fit into columns; "" when it does.
 std::string why_unfit(const FoundProperty& p) {
   if (p.multiplicity == Multiplicity::list) return "is a list, whose length changes from row to row";
   if (size_of(p.key->type->scalar) == 0)
@@ -26,7 +26,7 @@ std::string name_of(const Connector& c, const FoundProperty& p) {
   return std::string(c.object_name(p.object)) + ":" + std::string(p.key->name);
 }
 
-/// Everything that there is, by name.
+/// Returns all properties with their names.
 std::vector<std::pair<std::string, FoundProperty>> all_properties(const Connector& c) {
   std::vector<std::pair<std::string, FoundProperty>> all;
   for (std::uint32_t o = 0; o < c.object_count(); ++o)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Properties that recorders are told by patterns of their names.
+// Properties that recorders select by patterns of their names.
 #pragma once
 
 #include <algorithm>
@@ -19,9 +19,9 @@ class RecordedProperty {
 
   const std::string& name() const { return name_; }  ///< "object:property"
   Scalar scalar() const { return scalar_; }
-  /// The titles of its columns: "object:property.x", of arrays "object:property[2].x".
+  /// Titles of its columns: "object:property.x", of arrays "object:property[2].x".
   std::vector<std::string> titles() const;
-  /// What titles have behind the name: "", ".x", "[2].x".
+  /// Parts of the titles after the name: "", ".x", "[2].x".
   std::vector<std::string> elements() const;
   /// Calls `visit` with the address of each scalar, in the order of the titles.
   template <class Visit>
@@ -57,11 +57,12 @@ class RecordedProperty {
   bool is_sum_ = false;
 };
 
-/// The properties that match any of the patterns "object:property", in which * stands for any characters and ? for one,
-/// each property once. Without patterns: the pose of every robot's base. Throws Error when a pattern matches none.
+/// Returns the properties that match any of the patterns "object:property", each property once; * matches any
+/// characters and ? matches one. Without patterns, returns the pose of every robot's base. Throws Error when a pattern
+/// matches none.
 ///
-/// A pattern with a wildcard skips constants, states that only their owner understands (`state.*`) and what has no
-/// fixed columns (shapes, lists). A name without wildcards takes a constant, too; what has no fixed
+/// A pattern with a wildcard skips constants, states that only their owner understands (`state.*`), and properties
+/// without fixed columns (shapes, lists). A name without wildcards selects a constant, too; a property without fixed
 /// columns is then an error.
 std::vector<RecordedProperty> select(Connector& connector, std::span<const std::string_view> patterns);
 
