@@ -48,7 +48,7 @@ struct Statistics {
 
 struct Limits {
   std::size_t input_messages = 1024;   ///< messages that wait for a step, for each client; at this limit reading stops
-  std::size_t output_bytes = 1 << 20;  ///< bytes that wait to be sent, for each client; above it whole replies are
+  std::size_t output_bytes = 1 << 20;  ///< bytes that wait to be sent to a client; above it whole replies are dropped
                                        ///< dropped
   std::size_t input_bytes = 1 << 20;   ///< bytes that wait for a step, as input_messages
   /// Whether events are recorded, so that a replay repeats them. False: the receiver of the events records their
