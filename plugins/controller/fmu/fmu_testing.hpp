@@ -42,7 +42,7 @@ inline void write_archive(const std::string& path, const std::vector<Entry>& ent
   ASSERT_EQ(zip_close(zip), 0) << zip_strerror(zip);
 }
 
-/// All flags that an FMU can have here.
+/// All capability flags that are supported here.
 inline const std::string able_2 =
     R"(canHandleVariableCommunicationStepSize="true" canGetAndSetFMUstate="true" canSerializeFMUstate="true")";
 inline const std::string able_3 =

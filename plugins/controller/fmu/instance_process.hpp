@@ -16,7 +16,7 @@ class InstanceProcess {
  public:
   /// `timeout`: limit for each request, s of wall-clock time. Throws Error.
   explicit InstanceProcess(double timeout);
-  ~InstanceProcess() { reap(); }  // after its last output
+  ~InstanceProcess() { reap(); }  // waits for its last output
   InstanceProcess(const InstanceProcess&) = delete;
   InstanceProcess& operator=(const InstanceProcess&) = delete;
 

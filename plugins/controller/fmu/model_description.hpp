@@ -90,7 +90,7 @@ struct ModelDescription {
   std::map<std::string, Unit, std::less<>> units;
 
   const Variable* find(std::string_view name) const;
-  /// Returns the name of a flag, whose case differs: "canGetAndSetFMUstate" in FMI 2, "...FMUState" in FMI 3.
+  /// Returns the name of a flag; one letter differs: "canGetAndSetFMUstate" in FMI 2, "...FMUState" in FMI 3.
   std::string flag_of_state(std::string_view verb) const;
   /// Whether a variable, by its index, gives the length of a dimension of an array.
   bool is_length(std::size_t variable) const;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_elements = 10'000;  ///< most elements in one request
 constexpr std::size_t most_snapshots = 16;
-constexpr std::size_t longest_name = 64;  ///< of a snapshot, bytes
+constexpr std::size_t longest_name = 64;  ///< bytes in the name of a snapshot
 
 /// An element of a property and its new bytes.
 struct Change {

@@ -46,7 +46,7 @@ struct Call {
   std::uint64_t seed = 0;   ///< random seed of the instance
   std::uint64_t index = 0;  ///< index of the step
   bool is_patient = false;  ///< no time-out: a recording contains the time-outs
-  /// Null, or the place where the name of the running library function is written. The name may be copied.
+  /// Places for the name of the running library function: a pointer to it, and a copy. Null or empty: not needed.
   std::atomic<const char*>* running = nullptr;
   std::span<char> running_text{};
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For a process of control code: notes that it leaves when a signal ends it.
+// Notes that a process of control code leaves when a signal ends it.
 #pragma once
 
 #include "shared_layout.hpp"

@@ -17,7 +17,7 @@ class FailureLog {
   FailureLog(ExternalInputs& inputs, const std::string& channel) : inputs_(inputs), channel_(inputs.channel(channel)) {}
 
   bool is_replayed() const { return channel_ && channel_->is_replayed(); }
-  /// In a replay: returns how the call of `function` at `time` (ns) failed in the recorded run; null when it did not.
+  /// Returns, in a replay, how the call of `function` at `time` (ns) failed in the recorded run; null when it did not.
   /// Valid until the next call. [step]
   const Outcome* replayed(std::int64_t time, Function function);
   /// Records an outcome that is such a failure. `who`: begin of the sentence that explains why the run cannot be

@@ -52,8 +52,7 @@ void LocalInstance::connect_ports() {
     void* const at = memory_.inputs[i];
     inputs_.push_back(type == PortType::number ? static_cast<const double*>(at) : nullptr);
     integer_inputs_.push_back(type == PortType::integer ? static_cast<const std::int64_t*>(at) : nullptr);
-    const char* const text =
-        memory_.input_sizes[i] > 0 ? static_cast<const char*>(at) : "";  // else the input is missing
+    const char* const text = memory_.input_sizes[i] > 0 ? static_cast<const char*>(at) : "";  // "": it is missing
     text_inputs_.push_back(type == PortType::text ? text : nullptr);
   }
   for (std::uint32_t i = 0; i < table_.output_count; ++i) {

@@ -25,7 +25,7 @@ struct LaserScan {
   std::span<const double> ranges;                              ///< m, as measured by the device
   std::span<const double> truth;                               ///< m, before errors; may be the same
   std::span<const double> incidence;                           ///< rad; may be empty
-  double max_range = std::numeric_limits<double>::infinity();  ///< of the laser, m; its value without return
+  double max_range = std::numeric_limits<double>::infinity();  ///< of the laser, m: its reading without return
 };
 
 /// Converts rays of a laser to readings of a device's steps.

@@ -12,7 +12,7 @@ class CopyGuard {
   CopyGuard(const CopyGuard&) = delete;
   CopyGuard& operator=(const CopyGuard&) = delete;
 
-  /// In a copy of the process: writes a line to standard error, ends the copy. `function`: the call that has returned.
+  /// Ends the process if it is a copy, with a line to standard error. `function`: name of the call that has returned.
   static void end_copy(const char* function);
 };
 

@@ -21,7 +21,7 @@ class TimedLine {
   }
   /// Returns the number of further bytes that have passed by `now`.
   std::size_t advance(std::int64_t now) {
-    // ends before `now` is limited by the end of what is on the line, so that the product stays small
+    // the end of the bytes on the line limits `now`, so that the product stays small
     const std::uint64_t elapsed = now <= origin_ ? 0 : std::uint64_t(std::min(now, end()) - origin_);
     const std::uint64_t passed = now >= end() ? on_line_ : std::min(on_line_, elapsed * baud_ / bits_ns);
     const std::uint64_t more = passed - std::min(passed, passed_);

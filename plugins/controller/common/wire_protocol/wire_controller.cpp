@@ -10,7 +10,7 @@ namespace muro::wire {
 
 namespace {
 
-/// In lockstep, most rounds of messages in one step; after them time goes on.
+/// Limit for rounds of messages in a step of lockstep; after that time goes on.
 constexpr int most_rounds = 100'000;
 
 }  // namespace
