@@ -35,7 +35,7 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/// What is wrong with the name of an entry, as the end of a sentence; "" when it stays within its folder.
+/// Returns the fault of an entry's name, as the end of a sentence; "" when the name stays within its folder.
 std::string fault_of(std::string_view name) {
   if (name.empty()) return "which is empty";
   if (name.size() > longest_name) return "which is longer than " + std::to_string(longest_name) + " bytes";
@@ -49,7 +49,7 @@ std::string fault_of(std::string_view name) {
   return "";
 }
 
-/// The name of an entry without the `./` before it that some programs write.
+/// Returns the name of an entry without the leading `./` that some programs write.
 std::string plain(std::string name) {
   while (name.starts_with("./") && name.size() > 2) name.erase(0, 2);
   return name;
@@ -99,11 +99,11 @@ class Unpacking {
     zip_error_fini(&error);
     throw Error(path_ + " cannot be read as a zip archive: " + reason + "; an FMU is one");
   }
-  /// Whether it begins as a zip archive does, and lacks the record at its end that says where the list of its files is:
-  /// 22 bytes and a comment. libzip has one code for that and for other faults of the list.
+  /// Whether the file begins as a zip archive, but lacks the end record with the place of the list of files (22 bytes
+  /// and a comment). libzip has one code for that and for other faults of the list.
   bool is_cut_off(int code) const {
     bool may_be = code == ZIP_ER_NOZIP;
-#ifdef ZIP_ER_TRUNCATED_ZIP  // which older versions do not have
+#ifdef ZIP_ER_TRUNCATED_ZIP  // older versions do not have it
     may_be = may_be || code == ZIP_ER_TRUNCATED_ZIP;
 #endif
     const std::unique_ptr<std::FILE, CloseFile> file(may_be ? std::fopen(path_.c_str(), "rbe") : nullptr);
@@ -113,7 +113,7 @@ class Unpacking {
       return false;
     constexpr std::size_t record = 22, longest_comment = 65535;
     std::string end(record + longest_comment, '\0');
-    if (std::fseek(file.get(), -long(end.size()), SEEK_END) != 0) std::rewind(file.get());  // it is shorter
+    if (std::fseek(file.get(), -long(end.size()), SEEK_END) != 0) std::rewind(file.get());  // the file is shorter
     end.resize(std::fread(end.data(), 1, end.size(), file.get()));
     const std::size_t at = end.rfind("PK\5\6");
     return at == end.npos || end.size() - at < record;
@@ -157,7 +157,7 @@ class Unpacking {
     if (kind != 0 && kind != S_IFREG && kind != S_IFDIR) fail(name, "is neither a file nor a folder");
   }
 
-  /// Hands the bytes of an entry to `take`, piece by piece. What counts is what comes, not what the archive says.
+  /// Passes the bytes of an entry to `take`, in pieces. Limits apply to these bytes, not to the given sizes.
   template <class Take>
   void read(zip_uint64_t i, const std::string& name, std::uint64_t most, Take take) {
     const std::unique_ptr<zip_file_t, CloseEntry> file(zip_fopen_index(zip_.get(), i, 0));
@@ -213,13 +213,13 @@ class Unpacking {
   const std::string& path_;
   const fs::path& folder_;
   ArchiveLimits limits_;
-  std::vector<std::string> wanted_;  ///< beginnings of the names of what is written
+  std::vector<std::string> wanted_;  ///< name prefixes of the files to write
   std::unique_ptr<zip_t, CloseZip> zip_;
   Archive archive_;
   std::set<std::string> platforms_;
   std::uint64_t total_ = 0;
   bool found_description_ = false;
-  std::string deeper_description_;  ///< the name of a modelDescription.xml that is in a folder
+  std::string deeper_description_;  ///< name of a modelDescription.xml in a folder
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace muro::fmu {
 
-/// A new folder that only this user may enter, removed with all that is in it at its end.
+/// A new folder that only this user may enter. It is removed with its content at the end.
 class PrivateFolder {
  public:
   PrivateFolder() = default;
@@ -16,7 +16,7 @@ class PrivateFolder {
   PrivateFolder(const PrivateFolder&) = delete;
   PrivateFolder& operator=(const PrivateFolder&) = delete;
 
-  /// In the folder for temporary files (TMPDIR, else /tmp). Throws Error.
+  /// Makes it in the folder for temporary files (TMPDIR, else /tmp). Throws Error.
   void create();
   const std::filesystem::path& path() const { return path_; }
 
@@ -24,23 +24,23 @@ class PrivateFolder {
   std::filesystem::path path_;  ///< empty: there is none
 };
 
-/// What an archive may hold at most, unpacked.
+/// Limits for the unpacked content of an archive.
 struct ArchiveLimits {
   std::uint64_t entries = 20'000;
   std::uint64_t file_bytes = std::uint64_t(1) << 29;  ///< one file
-  std::uint64_t all_bytes = std::uint64_t(1) << 30;   ///< all files together
+  std::uint64_t all_bytes = std::uint64_t(1) << 30;   ///< total of all files
   std::uint64_t description_bytes = 64u << 20;        ///< modelDescription.xml
 };
 
-/// What is in an FMU.
+/// The content of an FMU.
 struct Archive {
-  std::string description;             ///< the bytes of modelDescription.xml
-  std::vector<std::string> platforms;  ///< the names of the folders in `binaries`, sorted
+  std::string description;             ///< bytes of modelDescription.xml
+  std::vector<std::string> platforms;  ///< names of the folders in `binaries`, sorted
   bool has_resources = false;
 };
 
-/// Reads the FMU at `path`, a zip archive, and writes its folders `binaries/PLATFORM` and `resources` into `folder`;
-/// the rest is only checked. Names that lead out of the folder, links and what is larger than `limits` are refused.
+/// Reads the FMU at `path`, a zip archive, and writes its folders `binaries/PLATFORM` and `resources` into `folder`.
+/// Only checks the other files. Refuses names that lead out of the folder, links, and files larger than `limits`.
 /// Throws Error.
 Archive unpack(const std::string& path, const std::filesystem::path& folder, const std::vector<std::string>& platforms,
                const ArchiveLimits& limits = {});

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The message with which an archive of these entries is refused; "" when it is unpacked.
+/// Returns the error message for an archive of these entries; "" when it is unpacked.
 std::string refusal_of(const std::vector<Entry>& entries, const ArchiveLimits& limits = {}) {
   const test::ScratchFolder scratch;
   write_archive(scratch.path("x.fmu"), entries);
@@ -144,7 +144,7 @@ TEST(Archive, SaysOfThoseAloneThatLackTheirEndThatTheyDo) {
                 "x.fmu is a zip archive without an end: it was copied only in part")
         << size;
   std::string early = whole, late = whole, damaged = whole, shorter = whole;
-  early[end + 16] = 0;  // where the list begins, in little endian
+  early[end + 16] = 0;  // place of the list, little endian
   late[end + 17] = 1;
   damaged[list] = 'X';
   shorter.erase(40, 20);

@@ -40,7 +40,7 @@ Binary::Binary(const std::filesystem::path& path) : path_(path.string()) {
   handle_ = load(RTLD_NOW | RTLD_LOCAL);
   if (!handle_) fail_to_load();
   if (is_sanitized || interposed_symbols(handle_).empty()) return;
-  // its own functions come first then; not always, for some libraries are meant to be replaced
+  // With RTLD_DEEPBIND its own functions come first. Not used always: some libraries are meant to be replaced.
   dlclose(handle_);
   handle_ = load(RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND);
   if (!handle_) fail_to_load();

@@ -7,21 +7,21 @@
 
 namespace muro::fmu {
 
-/// Names of the folders in `binaries` whose libraries run on this machine, the one that is looked for first in front:
-/// "linux64" in FMI 2, "x86_64-linux" in FMI 3.
+/// Returns the names of the folders in `binaries` with libraries for this machine, in the order of search: "linux64" in
+/// FMI 2, "x86_64-linux" in FMI 3.
 std::vector<std::string> own_platforms(int version);
 
-/// The library of an FMU, loaded for the life of the process. Where it has functions with names that others have, too,
-/// such as `step` of the C library, it gets its own.
+/// The library of an FMU. It stays loaded until the process ends. A library uses its own functions, also when another
+/// library has functions of the same name, such as `step` of the C library.
 class Binary {
  public:
-  /// Throws Error with the reason of the loader.
+  /// Loads the library. Throws Error with the reason of the loader.
   explicit Binary(const std::filesystem::path& path);
 
   const std::string& path() const { return path_; }
-  /// Null where the library does not have it.
+  /// Returns null when the library does not have it.
   void* find(const char* function) const;
-  /// Sets `place` to the function of that name. Throws Error where the library does not have it.
+  /// Sets `place` to the function of that name. Throws Error when the library does not have it.
   template <class Function>
   void get(Function*& place, const char* name) const {
     place = reinterpret_cast<Function*>(needed(name));

@@ -10,8 +10,8 @@ namespace muro::fmu {
 
 namespace {
 
-/// As far as it can be told before the start, when the lengths of arrays are known: before units, whose message would
-/// lead astray.
+/// Checks sizes that are known before the start; those of arrays are not. Done before the check of units, whose message
+/// would be misleading.
 void check_known_sizes(const PropertySearch& search, const Variable& variable, std::span<const Place> places) {
   std::uint64_t count = 0;
   for (const Place& p : places) {
@@ -36,7 +36,7 @@ void check_type(const Variable& v, const FoundProperty& p, bool is_input, const 
     throw Error(about + "that is a list, whose length changes from step to step");
 }
 
-/// Whether a place holds this scalar of an element.
+/// Whether a place contains this scalar of an element.
 bool holds(const Place& place, std::uint32_t scalar, std::uint32_t scalars) {
   const std::uint64_t count = place.count.value_or(scalars);
   return count >= scalars || (scalar + scalars - place.first % scalars) % scalars < count;
@@ -60,7 +60,7 @@ void Binder::bind(const Item& item, Exchange& inputs, Exchange& outputs) {
     if (const auto out = outputs_.find(v); out != outputs_.end()) {
       join(search, variable, places_of(search, out->second, false, variable.name), false, outputs);
     } else if (variable.causality == Causality::output && variable.size > 0) {
-      // an output such as `twist` is no attempt to write the twist: commands only
+      // an output such as `twist` must not write the twist itself: only commands are connected
       const auto place = place_of(search, variable.name, false);
       if (place && place->property.key->role == Role::command)
         join(search, variable, std::span(&*place, 1), false, outputs);
@@ -98,7 +98,7 @@ Run Binder::run_of(const PropertySearch& search, const Variable& variable, const
   return run;
 }
 
-/// One for each scalar of an element; none where no number changes.
+/// Returns one conversion for each scalar of an element; none when no number changes.
 std::vector<Conversion> Binder::conversions(const PropertySearch& search, const Variable& v, const Place& place,
                                             const std::string& about) const {
   if (v.unit.empty() || v.type == Type::binary) return {};

@@ -13,7 +13,7 @@ namespace muro::fmu {
 /// Connects the variables of an FMU with the properties of one robot after the other. [setup]
 class Binder {
  public:
-  /// `has_value`: whether an input, by its place in the model description, needs no property.
+  /// `has_value`: whether an input, by its index in the model description, needs no property.
   Binder(Connector& connector, const ModelDescription& description, const Mapping& inputs, const Mapping& outputs,
          std::function<bool(std::size_t)> has_value)
       : connector_(connector),
@@ -23,8 +23,8 @@ class Binder {
         outputs_(outputs),
         has_value_(std::move(has_value)) {}
 
-  /// Adds what there is to exchange for an item. Throws Error where an input is connected to nothing, and where sizes,
-  /// units or types do not fit.
+  /// Adds the variables of an item to the exchanges. Throws Error when an input is not connected, and when sizes, units
+  /// or types do not fit.
   void bind(const Item& item, Exchange& inputs, Exchange& outputs);
 
  private:
@@ -47,7 +47,7 @@ class Binder {
   const Mapping& inputs_;
   const Mapping& outputs_;
   std::function<bool(std::size_t)> has_value_;
-  std::map<Binding, void*> handles_;  ///< of properties that are connected: each is asked for once
+  std::map<Binding, void*> handles_;  ///< connected properties; each is bound once
 };
 
 }  // namespace muro::fmu

@@ -23,7 +23,7 @@ void Component::fail(const char* name, Status status) {
 
 void Component::abandon(void* something) {
   static std::mutex mutex;
-  static std::vector<void*>& all = *new std::vector<void*>;  // for the life of the process
+  static std::vector<void*>& all = *new std::vector<void*>;  // kept until the process ends
   const std::lock_guard lock(mutex);
   all.push_back(something);
 }

@@ -27,7 +27,7 @@ void log_of_fmi2(fmi2ComponentEnvironment environment, fmi2String, fmi2Status st
 void* allocate_for_fmi2(std::size_t count, std::size_t size) { return std::calloc(count, size); }
 void free_for_fmi2(void* memory) { std::free(memory); }
 
-/// RFC 3986: what is no letter, digit or mark stands as %HH.
+/// Returns the URI of a path (RFC 3986): characters other than letters, digits and marks become %HH.
 std::string uri_of(const std::string& path) {
   constexpr char digits[] = "0123456789ABCDEF";
   std::string uri = "file://";

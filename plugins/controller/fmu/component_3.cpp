@@ -104,7 +104,7 @@ class Component3 final : public Component {
     instantiate();
   }
 
-  /// Only FMUs whose structural parameters are set need the functions.
+  /// Loads the two functions here, because only FMUs with structural parameters to set need them.
   void enter_configuration() override {
     setup_.binary->get(enter_configuration_, "fmi3EnterConfigurationMode");
     setup_.binary->get(exit_configuration_, "fmi3ExitConfigurationMode");
@@ -153,7 +153,7 @@ class Component3 final : public Component {
     const Status status =
         status_of("fmi3DoStep", do_step_, instance_, time, size, !setup_.description->can_keep_state,
                   &outcome.needs_event, &outcome.wants_end, &outcome.returned_early, &outcome.last_time);
-    if (status == Status::discard) return {.is_discarded = true};  // what the others say is undefined then
+    if (status == Status::discard) return {.is_discarded = true};  // the other results are undefined then
     if (status != Status::ok && status != Status::warning) fail("fmi3DoStep", status);
     outcome.knows_last_time = outcome.returned_early;
     return outcome;

@@ -25,7 +25,7 @@ const Conversion* conversion_of(const Run& run, std::uint64_t i) {
               (variable.size > 1 ? ", element " + std::to_string(element) + "," : "") + " " + what);
 }
 
-/// From the properties of `run` to numbers of type T.
+/// Reads the properties of `run` into numbers of type T.
 template <class T>
 void read_run(const Variable& variable, const Run& run, T* to, std::uint64_t begin) {
   with_scalar(run.type->scalar, [&](auto zero) {
@@ -41,7 +41,7 @@ void read_run(const Variable& variable, const Run& run, T* to, std::uint64_t beg
   });
 }
 
-/// From numbers of type T to the properties of `run`.
+/// Writes numbers of type T to the properties of `run`.
 template <class T>
 void write_run(const Variable& variable, const Run& run, const T* from, std::uint64_t begin) {
   with_scalar(run.type->scalar, [&](auto zero) {

@@ -10,29 +10,29 @@
 
 namespace muro::fmu {
 
-/// Scalars of a property that lie side by side, once addresses are known.
+/// Scalars of a property that are adjacent in memory, once addresses are known.
 struct Run {
-  void* handle = nullptr;  ///< of Connector::read_any or write_any
+  void* handle = nullptr;  ///< result of Connector::read_any or write_any
   Multiplicity multiplicity = Multiplicity::single;
   const ValueType* type = nullptr;
   std::uint64_t first = 0;
-  std::optional<std::uint64_t> wanted;  ///< nothing: all from `first` on
-  std::vector<Conversion> conversions;  ///< one for each scalar of an element; empty: none is needed
-  std::string name;                     ///< of the property, for messages
-  std::byte* data = nullptr;            ///< the first scalar
+  std::optional<std::uint64_t> wanted;  ///< number of scalars; nothing: all from `first` on
+  std::vector<Conversion> conversions;  ///< one for each scalar of an element; empty: not needed
+  std::string name;                     ///< name of the property, for messages
+  std::byte* data = nullptr;            ///< address of the first scalar
   std::uint64_t count = 0;
 
-  /// Looks up the address and the length of arrays. Throws Error when they are shorter than was asked for. [start]
+  /// Finds the address and the length of arrays. Throws Error when an array is shorter than needed. [start]
   void resolve();
 };
 
-/// Throws Error unless a variable and its properties, `count` scalars of `name` and so on, have the same size.
+/// Throws Error unless a variable and its properties have the same size; `name` and others have `count` scalars.
 void check_size(const Variable& variable, std::uint64_t count, const std::string& name);
 
-/// Moves the values of variables between the properties of one robot and an instance: inputs, or outputs.
+/// Transfers the values of variables between the properties of one robot and an instance: inputs, or outputs.
 class Exchange {
  public:
-  /// `version`: of FMI; decides in how many bytes a Boolean is.
+  /// `version`: of FMI; it determines the size of a Boolean.
   void add(const Variable& variable, std::vector<Run> runs, int version);
   bool is_empty() const { return groups_.empty() && binaries_.empty(); }
   /// Throws Error when a variable and its properties have different sizes. [start]
@@ -46,14 +46,14 @@ class Exchange {
   struct Entry {
     const Variable* variable = nullptr;
     std::vector<Run> runs;
-    std::size_t offset = 0;  ///< of its first number in the buffer
+    std::size_t offset = 0;  ///< place of its first number in the buffer
   };
-  /// Variables of one type go in one call.
+  /// Variables of one type; one call transfers them all.
   struct Group {
     std::vector<std::uint32_t> references;
     std::vector<Entry> entries;
     std::vector<std::uint64_t> buffer;  ///< numbers of up to 8 bytes
-    std::size_t count = 0;              ///< numbers in it
+    std::size_t count = 0;              ///< numbers in the buffer
   };
 
   int version_ = 2;

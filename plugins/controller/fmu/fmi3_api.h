@@ -38,7 +38,7 @@ typedef fmi3Status fmi3ExitInitializationModeTYPE(fmi3Instance);
 typedef fmi3Status fmi3TerminateTYPE(fmi3Instance);
 typedef fmi3Status fmi3ResetTYPE(fmi3Instance);
 
-// Variables: `count` value references, `values` numbers in all; an array counts with each of its elements.
+// Access to variables: `count` value references and `values` numbers; every element of an array counts.
 #define FMI3_VARIABLES(NAME, NUMBER)                                                                             \
   typedef fmi3Status fmi3Get##NAME##TYPE(fmi3Instance, const fmi3ValueReference[], size_t count, NUMBER[],       \
                                          size_t values);                                                         \

@@ -47,13 +47,13 @@ constexpr Description description{
     .parameters = parameters,
     .reads = reads,
     .writes = writes,
-    .capabilities = batched,  // what else holds depends on the FMU
+    .capabilities = batched,  // other capabilities depend on the FMU
 };
 
-/// The state of one robot: this, then `capacity` bytes for the serialized state of its instance.
+/// The state of one robot: this block, then `capacity` bytes for the serialized state of its instance.
 struct StateBlock {
   std::uint64_t is_initialized;
-  std::int64_t start;  ///< ns, when it was
+  std::int64_t start;  ///< time of the initialization, ns
   std::uint64_t size;  ///< bytes of the serialized state
 
   std::uint8_t* bytes() { return reinterpret_cast<std::uint8_t*>(this + 1); }
@@ -138,13 +138,13 @@ class FmuController final : public Algorithm {
     Exchange inputs, outputs;
     StateBlock* block = nullptr;
     std::vector<std::uint64_t> room;  ///< for values of the input file
-    bool is_new = true;               ///< the instance has been instantiated or reset, and no more
-    bool is_stale = false;            ///< the block says something else than the instance
+    bool is_new = true;               ///< the instance was only instantiated or reset
+    bool is_stale = false;            ///< the instance does not match the block
   };
 
   std::string file_name() const { return std::filesystem::path(path_).filename().string(); }
 
-  /// Runs `work` for a robot; what it throws gets the names of robot and FMU.
+  /// Runs `work` for a robot. Adds the names of robot and FMU to its errors.
   template <class Work>
   void named(std::uint32_t robot, Work work) {
     CallNote* const note = notes_ ? &notes_->of_this_thread() : nullptr;
@@ -203,7 +203,7 @@ class FmuController final : public Algorithm {
     if (note) note->set_library(nullptr, nullptr);
   }
 
-  /// Whether the only instance that this process may have is free, and is enough.
+  /// Whether one instance is enough, and is the only one in this process.
   bool may_run_here(const Connector& c) {
     return c.items().size() <= 1 && claim_.claim(description_.identifier + " " + description_.token);
   }
@@ -229,7 +229,7 @@ class FmuController final : public Algorithm {
     });
   }
 
-  /// How many bytes a state may have: those of one after the initialization, and half as much again.
+  /// Returns the size reserved for a state: 1.5 times the size after the initialization, and 1 KiB.
   std::size_t measured_state(Robot& r) {
     std::size_t size = 0;
     if (saves_state_)
@@ -248,7 +248,7 @@ class FmuController final : public Algorithm {
     return size == 0 ? 0 : (size + size / 2 + 1024) / 8 * 8;
   }
 
-  /// Whether an input needs no property, since something else gives it a value.
+  /// Whether an input needs no property, because another source gives its value.
   bool has_value(std::size_t variable) const {
     return start_values_.contains(variable) || (table_ && table_->has(variable));
   }
@@ -260,13 +260,13 @@ class FmuController final : public Algorithm {
                     ", and `inputs` connects it, too; leave out one of them");
   }
 
-  /// `time` (s): whose values of the input file the FMU gets.
+  /// `time` (s): time of the values from the input file.
   void set_inputs(Robot& r, double time) {
     r.inputs.set(*r.component);
     if (table_) table_->set(*r.component, time, r.room);
   }
 
-  /// A name that no other controller on the same object has.
+  /// Returns a name that no other controller on the same object has.
   std::string block_name(const Connector& c, ObjectId object) const {
     const std::string stem = "fmu." + description_.identifier;
     std::string name = stem;
@@ -279,8 +279,8 @@ class FmuController final : public Algorithm {
     return name;
   }
 
-  /// From the instant before to this one, so that the FMU's time is that of the simulation. Communication points are
-  /// multiples of the period after the start, however its nanoseconds were rounded.
+  /// Advances the FMU from the last instant to this one, so that its time is the time of the simulation. Communication
+  /// points are multiples of the period after the start, without the rounding to nanoseconds.
   void run(Robot& r, const Step& step) {
     if (r.is_stale) synchronise(r);
     if (r.block->is_initialized == 0) {
@@ -349,7 +349,7 @@ class FmuController final : public Algorithm {
   ModelDescription description_;
   std::filesystem::path library_, resources_;
   bool saves_state_ = false;
-  bool is_isolated_ = false;  ///< each instance is in a process of its own
+  bool is_isolated_ = false;  ///< each instance is in a separate process
   std::unique_ptr<Binary> binary_;
   ProcessClaim claim_;
   StartValues start_values_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What users read when an FMU, or what a scenario says about it, is wrong, and how steps that fail are mended.
+// Messages for users when an FMU or its part of a scenario is wrong, and repair of steps that fail.
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,7 +18,7 @@ constexpr Key<std::int32_t> count{"test.count", "1", "what `count` says"};
 
 const std::string variable_steps = R"(canHandleVariableCommunicationStepSize="true" )";
 
-/// As in model.h.
+/// Same numbers as in model.h.
 enum Fault {
   error = 1,
   fatal,
@@ -46,7 +46,7 @@ class FmuFault : public ::testing::TestWithParam<int> {
   std::string prefix() const { return "fmi" + std::to_string(version()); }
   const std::string& able() const { return version() == 2 ? able_2 : able_3; }
 
-  /// A simulation of an FMU with these flags and values for 1 s; returns how it ends, "no complaint" where it is well.
+  /// Runs an FMU with these flags and values for 1 s. Returns the error, or "no complaint".
   std::string run(const std::string& flags, Texts values, const std::string& library = "") {
     const test::ScratchFolder scratch;
     write_fmu(scratch.path("x.fmu"), version(), flags, library);

@@ -67,7 +67,7 @@ TEST_P(Fmu, NeverDriftsWherePeriodsAreNoWholeNanoseconds) {
   bench.sink(euler), bench.sink(count);
   bench.control(fmu(""), version(), clocks, {"k=0.001"}, 30);
   bench.build();
-  bench.run_for(100.01);  // the FMU fails where its time is not that which it is told
+  bench.run_for(100.01);  // the FMU fails when its own time differs from the time of the call
   EXPECT_DOUBLE_EQ(t, 100);
   EXPECT_NEAR(d, std::exp(-0.1), 1e-12);
 }
@@ -106,7 +106,7 @@ TEST_P(Fmu, OfTheWorldSeesAndControlsAnyRobot) {
   EXPECT_NEAR(bench.pose(*bench.a).position.x(), 2 * (4.5 - 4), 1e-9) << "b stands still at 4 m";
 }
 
-/// A target that stands, with a velocity: the drive rests at damping / stiffness times that beyond it.
+/// A fixed target with a velocity: the drive comes to rest beyond it, at the velocity times damping / stiffness.
 TEST_P(Fmu, CommandsPositionAndVelocityOfAJoint) {
   Bench bench;
   bench.is_of_world = true;
@@ -320,7 +320,7 @@ TEST_P(Fmu, WithoutSnapshotsHasItsStateForItself) {
 }
 
 TEST_P(Fmu, RunsAtMultiplesOfItsFixedInternalStepSizeOnly) {
-  if (version() == 2) return;  // the flag came with FMI 3
+  if (version() == 2) return;  // the flag is new in FMI 3
   for (const auto& [rate, is_legal] :
        {std::pair{10.0, true}, {20.0, true}, {25.0, false}, {40.0, false}, {4.0, true}}) {
     Bench bench;
@@ -344,8 +344,8 @@ INSTANTIATE_TEST_SUITE_P(OfFmi, Fmu, ::testing::Values(Way{2, false}, Way{3, fal
                                   (test.param.is_isolated ? "InAProcessOfItsOwn" : "");
                          });
 
-/// A property of `value` to the FMU's variable of a type, and from there to another property, which is `expected` then;
-/// not a number: it does not fit.
+/// Passes `value` from a property to a variable of the FMU and on to another property, which must be `expected`; not a
+/// number: it does not fit.
 template <class T>
 void converts(const std::string& type, T value, T expected) {
   static constexpr Key<T> in{"test.in", "1", ""}, out{"test.out", "1", ""};

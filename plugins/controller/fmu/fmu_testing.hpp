@@ -16,15 +16,15 @@ namespace muro::fmu {
 using Texts = std::vector<std::string>;
 using Settings = std::map<std::string, ParameterInput>;
 
-/// The parts that the build has made: model2.so, model3.so, ..., description_2.xml, ... and whole FMUs.
+/// Parts that the build has made: model2.so, model3.so, ..., description_2.xml, ... and complete FMUs.
 inline const std::string parts = FMU_PARTS "/";
 
-/// The folder for libraries of this machine, by version of FMI.
+/// Folder for libraries of this machine, by version of FMI.
 inline const std::string platform_of[] = {"", "", "linux64", FMU_PLATFORM_3};
 
 struct Entry {
   std::string name, bytes;
-  unsigned mode = 0;  ///< of Unix; 0: none is noted
+  unsigned mode = 0;  ///< Unix mode; 0: none is stored
 };
 
 /// Writes a zip archive.
@@ -42,7 +42,7 @@ inline void write_archive(const std::string& path, const std::vector<Entry>& ent
   ASSERT_EQ(zip_close(zip), 0) << zip_strerror(zip);
 }
 
-/// All flags that an FMU can have and be run.
+/// All capability flags that are supported here.
 inline const std::string able_2 =
     R"(canHandleVariableCommunicationStepSize="true" canGetAndSetFMUstate="true" canSerializeFMUstate="true")";
 inline const std::string able_3 =
@@ -53,14 +53,14 @@ inline std::string description(int version, const std::string& flags) {
   return std::regex_replace(text, std::regex("@flags@"), flags);
 }
 
-/// An FMU with these flags. `library`: of those in `parts`, "" for model2 and model3.
+/// Writes an FMU with these flags. `library`: a library in `parts`; "" for model2 or model3.
 inline void write_fmu(const std::string& path, int version, const std::string& flags, std::string library = "") {
   if (library.empty()) library = "model" + std::to_string(version);
   write_archive(path, {{"modelDescription.xml", description(version, flags)},
                        {"binaries/" + platform_of[version] + "/model.so", test::text_of(parts + library + ".so")}});
 }
 
-/// Connects what has no property of its name, so that only some need to be said.
+/// Returns values for inputs without a property, so that a test gives only some inputs.
 inline Texts closed_inputs(int version) {
   Texts all{"u=0", "angle=0", "int_in=0", "bool_in=false", "choice_in=1"};
   if (version == 3)
@@ -70,7 +70,7 @@ inline Texts closed_inputs(int version) {
   return all;
 }
 
-/// Robots "a", "b", ... that go as commanded, at 20 Hz, and properties of any kind for them.
+/// Robots "a", "b", ... that move as commanded, at 20 Hz, with properties of any kind.
 struct Bench : test::Scene {
   explicit Bench(int robots = 1) {
     const RobotTree tree = test::tree_of([](RobotBuilder& t) {
@@ -86,7 +86,7 @@ struct Bench : test::Scene {
     });
   }
 
-  /// `values`: parameters of the FMU, beside those that close its other inputs.
+  /// `values`: parameters of the FMU, in addition to the values for its other inputs.
   void control(const std::string& path, int version, Settings settings = {}, Texts values = {}, double rate = 10) {
     const Texts* in = std::get_if<Texts>(&settings["inputs"]);
     const Texts connected = in ? *in : Texts();
@@ -104,17 +104,17 @@ struct Bench : test::Scene {
     use("controller.fmu", rate, is_of_world ? std::vector<Item>{} : all_robots(), settings);
   }
 
-  /// `mapping` as "variable=property", for the outputs that a test looks at.
+  /// `outputs`: "variable=property" for the outputs that a test reads.
   void control(const std::string& path, int version, const Texts& outputs, Texts values = {}, double rate = 10) {
     control(path, version, Settings{{"outputs", outputs}}, std::move(values), rate);
   }
 
-  /// A property that the test writes and the FMU reads; it exists before the controllers look for it.
+  /// Returns a property that the test writes and the FMU reads. It exists before the controllers search it.
   template <class T>
   T& source(const Key<T>& key, const T& value = {}) {
     return place(key, usage::variable, value);
   }
-  /// A property that the test reads and the FMU writes.
+  /// Returns a property that the test reads and the FMU writes.
   template <class T>
   T& sink(const Key<T>& key, const T& value = {}) {
     return place(key, usage::input, value);
@@ -129,12 +129,12 @@ struct Bench : test::Scene {
 
   const RobotView* a = nullptr;
   const RobotView* b = nullptr;
-  bool is_of_world = false;  ///< one FMU, of no robot
-  bool is_isolated = false;  ///< each instance in a process of its own
+  bool is_of_world = false;  ///< one FMU, not for a robot
+  bool is_isolated = false;  ///< each instance in a separate process
   std::string said;          ///< log lines
 };
 
-/// The message with which building, or running, fails.
+/// Returns the error message of a failed build, or run.
 inline std::string refusal(Bench& bench) {
   return test::complaint_of([&] { bench.build(); });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The process of one instance of an FMU (`isolate: process`), which the plugin starts and which ends with it.
+// The process of one instance of an FMU (`isolate: process`). The plugin starts it, and it ends with the plugin.
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -37,7 +37,7 @@ class Lines final : public Host {
   std::vector<std::pair<LogLevel, std::string>> lines_;
 };
 
-/// Which function of the FMU runs, for the message about a crash.
+/// The function of the FMU that runs now, for the message about a crash.
 class OwnNotes final : public CallNotes {
  public:
   CallNote& of_this_thread() noexcept override { return note; }
@@ -45,7 +45,7 @@ class OwnNotes final : public CallNotes {
 };
 OwnNotes own_notes;
 
-/// The last answer: that a function has crashed. Calls nothing that is not allowed in a signal handler.
+/// Sends the last answer: a function has crashed. Calls only functions that are allowed in a signal handler.
 void tell_crash(int, const siginfo_t&) {
   const char* const function = own_notes.note.function.load();
   const char* const name = function ? function : "muro_fmu_host";
@@ -69,7 +69,7 @@ void tell_crash(int, const siginfo_t&) {
 
 class Server {
  public:
-  /// Carries out the calls of a request; `out` gets what the last one returns.
+  /// Carries out the calls of a request; `out` gets the result of the last one.
   void serve(Reader request, Writer& out) {
     while (!request.at_end()) {
       out = {};

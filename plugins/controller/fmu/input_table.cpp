@@ -22,7 +22,7 @@ namespace muro::fmu {
 namespace {
 
 constexpr std::size_t most_bytes = std::size_t(64) << 20;
-constexpr double rounding = 0.5e-9;  ///< s: times of a simulation are whole nanoseconds
+constexpr double rounding = 0.5e-9;  ///< tolerance, s: times of a simulation are whole nanoseconds
 
 bool may_be_column(const Variable& v) { return v.causality == Causality::input || v.is_tunable; }
 
@@ -137,7 +137,7 @@ class InputTable::Reader {
   InputTable& table_;
   const ModelDescription& description_;
   bool has_header_ = false;
-  std::vector<std::byte> numbers_;  ///< of a cell
+  std::vector<std::byte> numbers_;  ///< numbers of a cell
   std::map<std::string, TextPlace> places_;
 };
 
@@ -179,7 +179,7 @@ void InputTable::set_column(Component& component, const Column& column, std::siz
       for (std::size_t i = 0; i < v.size; ++i) {
         const double begin = from[i], end = from[v.size + i];
         const double value = begin + passed * (end - begin) / whole;
-        const double part = passed / whole;  // where the difference is too large for a number
+        const double part = passed / whole;  // used when the difference is too large for a double
         to[i] = T(std::isfinite(value) ? value : begin * (1 - part) + end * part);
       }
       component.set(v.type, reference, to, v.size);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Values of inputs from a CSV file. A communication step from t to t + h gets the values at t, as in fmusim and FMPy,
-// so that outputs at t + h show them.
+// so outputs at t + h show these values.
 #include <cmath>
 
 #include "fmu_testing.hpp"
@@ -24,7 +24,7 @@ class FmuInputFile : public ::testing::TestWithParam<Way> {
   };
   FmuInputFile() { write_fmu(fmu_, version(), version() == 2 ? able_2 : able_3); }
   int version() const { return GetParam().version; }
-  /// Values of inputs that the file has, too, are start values.
+  /// `values`: start values, also of inputs that the file has.
   void control(Bench& bench, const std::string& table, const Texts& outputs, const Texts& values = {}) {
     bench.control(fmu_, version(), {{"outputs", outputs}, {"input_file", scratch_.file("in.csv", table)}}, values);
   }
@@ -32,7 +32,7 @@ class FmuInputFile : public ::testing::TestWithParam<Way> {
   const std::string fmu_ = scratch_.path("x.fmu");
 };
 
-/// `speed` is -u where gain is 1 and goal 0.
+/// `speed` is -u when gain is 1 and goal is 0.
 TEST_P(FmuInputFile, InterpolatesContinuousInputsAndHoldsOthers) {
   Bench bench;
   const double& v = bench.sink(speed);
@@ -54,7 +54,7 @@ TEST_P(FmuInputFile, InterpolatesContinuousInputsAndHoldsOthers) {
     int whole, is_true, choice;
   };
   const Moment before{1, 90, -5, 1, 1}, middle{2, 90, -5, 1, 1}, jump{-2, 180, 8, 0, 2}, after{-4, 270, 9, 1, 1};
-  // at t = 0, 0.1, ...; from 0.1 on the inputs are those of the instant before
+  // at t = 0, 0.1, ...; from 0.1 on the inputs are from the instant before
   const Moment expected[] = {before, before, before, before, middle, jump, {-3, 180, 8, 0, 2}, after, after, after};
   bench.run_for(0.05);
   for (std::size_t i = 0; i < std::size(expected); ++i) {
@@ -170,7 +170,7 @@ TEST(FmuInputFileOfFmi3, GivesNumbersOfAllTypesArraysAndBytes) {
   EXPECT_EQ(std::string(static_cast<const char*>(bytes_are->data), 6), "fedcba");
 }
 
-/// The refusal of a file, given as its bytes or by its path.
+/// Returns the error message for a file, given as its bytes or by its path.
 std::string refusal_of(const std::string& bytes, const std::string& path = "") {
   const test::ScratchFolder scratch;
   write_fmu(scratch.path("x.fmu"), 3, able_3);

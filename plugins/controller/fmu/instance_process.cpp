@@ -39,7 +39,7 @@ ChildProcess::Clock::time_point InstanceProcess::deadline() const {
 
 std::vector<std::byte> InstanceProcess::ask(std::span<const std::byte> request) {
   const std::uint64_t size = request.size();
-  // where it is gone, receive() finds that
+  // receive() detects that the process has ended
   if (process_.send(&size, sizeof size, deadline()) == Transfer::whole)
     process_.send(request.data(), request.size(), deadline());
   std::uint64_t answer_size = 0;

@@ -10,18 +10,18 @@
 
 namespace muro::fmu {
 
-/// A process for one instance of an FMU. It ends when this does, and when the process that has started it is gone, and
-/// all that it has started end with it.
+/// A process for one instance of an FMU. It ends with this object, and when the process that has started it ends. All
+/// processes that it has started end with it.
 class InstanceProcess {
  public:
-  /// `timeout`: s of wall-clock time for each request. Throws Error.
+  /// `timeout`: limit for each request, s of wall-clock time. Throws Error.
   explicit InstanceProcess(double timeout);
-  ~InstanceProcess() { reap(); }  // after what it still prints
+  ~InstanceProcess() { reap(); }  // waits for its last output
   InstanceProcess(const InstanceProcess&) = delete;
   InstanceProcess& operator=(const InstanceProcess&) = delete;
 
-  /// Sends a request and returns the answer. Throws Error when there is none, with what became of the process:
-  /// FailureFromOutside where the clock or another process has a part in it.
+  /// Sends a request and returns the answer. Throws Error when there is none, with the end of the process; throws
+  /// FailureFromOutside when the clock or another process has influenced it.
   std::vector<std::byte> ask(std::span<const std::byte> request);
   bool is_running() const { return bool(process_); }
 
@@ -29,7 +29,7 @@ class InstanceProcess {
     std::string text;  ///< the end of a sentence: "was killed by SIGSEGV"
     bool may_be_from_outside = false;
   };
-  /// How it has ended.
+  /// Ends the process if it still runs, and returns how it has ended.
   Death reap();
 
  private:

@@ -26,7 +26,7 @@ constexpr std::string_view what_may_be_mapped(std::string_view parameter) {
   return "a parameter, an input, or a variable with `initial` exact or approx";
 }
 
-/// The variable before one of the signs = in "variable=..."; their names may hold such signs.
+/// Returns the variable before one of the signs = in "variable=..."; names of variables may contain this sign, too.
 std::size_t variable_of(std::string_view parameter, std::string_view text, const ModelDescription& d,
                         std::string_view& rest) {
   std::size_t equals = text.find('=');
@@ -74,7 +74,7 @@ std::optional<std::uint64_t> index_in(std::string_view text) {
   return value;
 }
 
-/// Sets which scalars of its property a place is.
+/// Sets the scalars of a place from a selection.
 void select(Place& place, std::string_view selection, const std::string& name) {
   const ValueType& type = *place.property.key->type;
   const std::size_t dots = selection.find("..");

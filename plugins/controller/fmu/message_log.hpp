@@ -9,25 +9,25 @@
 
 namespace muro::fmu {
 
-/// As both versions of the standard number them; `pending` is of FMI 2 alone.
+/// Status codes with the numbers of both versions of the standard; only FMI 2 has `pending`.
 enum class Status { ok, warning, discard, error, fatal, pending };
 
-/// What an instance of an FMU says, from whatever thread: warnings go to the host, and the words about an error are
-/// kept for its message.
+/// Messages of an instance of an FMU, from any thread. Warnings go to the host. Messages about an error are kept for
+/// the error that is thrown.
 class MessageLog {
  public:
-  /// `name`: of the robot. `all`: also what is no warning.
+  /// `name`: name of the robot. `all`: whether to log other messages than warnings, too.
   MessageLog(Host& host, std::string name, bool all) : host_(&host), name_(std::move(name)), all_(all) {}
   MessageLog(const MessageLog&) = delete;
   MessageLog& operator=(const MessageLog&) = delete;
 
   bool logs_all() const { return all_; }
-  /// A line that says by itself where it comes from.
+  /// Logs a line that already names its source.
   void pass_on(LogLevel level, std::string_view line);
   void say(Status status, std::string_view text);
-  /// What was said last about an error or a discarded step; then it is forgotten.
+  /// Returns the last message about an error or a discarded step, and forgets it.
   std::string take_reason();
-  /// From now on nothing is said: the host may be gone.
+  /// Stops all messages to the host, which may be gone.
   void close();
 
  private:

@@ -20,7 +20,7 @@ namespace {
 
 struct TypeNames {
   Type type;
-  std::string_view in_2, in_3;  ///< empty: there is none
+  std::string_view in_2, in_3;  ///< empty: the version does not have it
 };
 constexpr std::array<TypeNames, type_count> type_names{{{Type::float64, "Real", "Float64"},
                                                         {Type::float32, "", "Float32"},
@@ -46,7 +46,7 @@ constexpr std::pair<std::string_view, Causality> causality_names[] = {
     {"independent", Causality::independent},
     {"structuralParameter", Causality::structural_parameter}};
 
-/// The product of the lengths; nothing where it is above largest_array.
+/// Returns the product of the lengths; nothing when it is above largest_array.
 std::optional<std::uint64_t> size_of_array(const std::vector<Dimension>& dimensions) {
   std::uint64_t size = 1;
   for (const Dimension& d : dimensions) {
@@ -228,7 +228,7 @@ class DescriptionReader {
     }
   }
 
-  /// What a variable takes from its type.
+  /// The parts of a variable that come from its type.
   struct DeclaredType {
     std::string unit;
     bool is_relative = false;
@@ -351,7 +351,7 @@ class DescriptionReader {
   ModelDescription out_;
   std::map<std::string, DeclaredType, std::less<>> types_;
   std::map<std::uint32_t, std::size_t> lengths_;  ///< variables that dimensions may refer to, by value reference
-  std::vector<const Element*> elements_;          ///< of each variable
+  std::vector<const Element*> elements_;          ///< XML element of each variable
 };
 
 ModelDescription read_model_description(std::string bytes, const std::string& path) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers of FMUs and of properties, whose types are known only when a program runs.
+// Numbers of FMUs and of properties. Their types are known only at run time.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace muro::fmu {
 
-/// Calls `visit` with a 0 of the type of C in which numbers of a type of FMI go: `[&](auto zero) { ... }`.
+/// Calls `visit` with a 0 of the C type that FMI uses for numbers of a type: `[&](auto zero) { ... }`.
 template <class Visit>
 auto with_fmi_type(Type type, int version, Visit visit) {
   switch (type) {
@@ -43,12 +43,12 @@ auto with_fmi_type(Type type, int version, Visit visit) {
     case Type::float64:
     case Type::string:
     case Type::binary:
-      break;  // the last two have functions of their own
+      break;  // these two types have their own functions
   }
   return visit(double{});
 }
 
-/// `value` as another type, a whole number rounded to the nearest; false when it does not fit.
+/// Converts `value` to another type; rounds to integers. Returns false when it does not fit.
 template <class From, class To>
 bool convert(From value, To& result) {
   if constexpr (std::is_integral_v<From> && std::is_integral_v<To>) {

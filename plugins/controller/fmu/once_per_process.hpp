@@ -5,7 +5,7 @@
 
 namespace muro::fmu {
 
-/// The right to the only instance of an FMU in this process, given back at its end.
+/// The right to the only instance of an FMU in this process. It is returned at the end of this object.
 class ProcessClaim {
  public:
   ProcessClaim() = default;
@@ -13,11 +13,11 @@ class ProcessClaim {
   ProcessClaim(const ProcessClaim&) = delete;
   ProcessClaim& operator=(const ProcessClaim&) = delete;
 
-  /// False when somebody else has it. `name` is that of the FMU.
+  /// Returns false when another object has the right. `name`: name of the FMU.
   bool claim(const std::string& name);
 
  private:
-  std::string name_;  ///< empty: none is held
+  std::string name_;  ///< empty: no right is held
 };
 
 }  // namespace muro::fmu

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An instance in a process of its own.
+// An instance in a separate process.
 #include <utility>
 
 #include "component.hpp"
@@ -32,7 +32,7 @@ class RemoteComponent final : public Component {
     try {
       run(Call::end, "FreeInstance");
     } catch (const Error&) {
-      // whatever became of it, it is gone
+      // the process is gone in any case
     }
   }
 
@@ -47,7 +47,7 @@ class RemoteComponent final : public Component {
   }
   void exit_initialization() override { run(Call::exit_initialization, "ExitInitializationMode"); }
 
-  // They go with the next call, and so does what is wrong with them.
+  // These are sent with the next call, which also reports their errors.
   void set(Type type, std::span<const std::uint32_t> references, const void* values, std::size_t count) override {
     add(Call::set);
     request_.value(type);
@@ -113,7 +113,7 @@ class RemoteComponent final : public Component {
     return finish(name);
   }
 
-  /// Sends what has been added. What the answer holds is good until the next request.
+  /// Sends the added calls. Data of the answer is valid until the next request.
   Reader finish(const char* name) {
     CallNote* const note = setup_.notes ? &setup_.notes->of_this_thread() : nullptr;
     if (note) note->set_library(setup_.library.c_str(), name);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the plugin and the process of an instance (`isolate: process`) say to each other on a socket. The process begins
-// with a greeting. Each request is a size and calls, one behind the other; each answer a size, log lines, how it went,
-// and what the last call returns. A call that fails ends its request.
+// Messages between the plugin and the process of an instance (`isolate: process`) on a socket. The process sends a
+// greeting first. Each request is a size and calls, one after the other. Each answer is a size, log lines, a status,
+// and the result of the last call. A call that fails ends its request.
 #pragma once
 
 #include <cstring>
@@ -18,13 +18,13 @@ using parser_process::Writer;
 inline constexpr char process_file[] = "muro_fmu_host";
 inline constexpr std::uint64_t largest_message = std::uint64_t(1) << 30;
 
-/// Tells apart programs of different builds.
+/// Detects programs of different builds.
 struct Greeting {
   char text[24] = "muro fmu host 2";
 };
 
 enum class Call : std::uint8_t {
-  load,  ///< the first one; the others are those of Component
+  load,  ///< the first call; the others are functions of Component
   instantiate,
   reset,
   enter_configuration,
@@ -47,11 +47,11 @@ enum class Call : std::uint8_t {
 
 enum class Answer : std::uint8_t {
   done,
-  failed,   ///< with a text for the user
-  crashed,  ///< with the name of the function that did
+  failed,   ///< followed by a text for the user
+  crashed,  ///< followed by the name of the function that crashed
 };
 
-/// What the process needs to know of an FMU.
+/// Data of an FMU that the process needs.
 struct RemoteSetup {
   std::string library, resources, name, token;
   std::int32_t version = 0;
@@ -78,7 +78,7 @@ struct RemoteSetup {
   }
 };
 
-/// Member by member: padding between them is nobody's.
+/// Writes each member separately, so that no padding is sent.
 inline void write(const StepOutcome& o, Writer& to) {
   for (const bool b : {o.is_discarded, o.wants_end, o.needs_event, o.returned_early, o.knows_last_time}) to.value(b);
   to.value(o.last_time);

@@ -6,12 +6,12 @@
 
 namespace muro::fmu {
 
-/// Arrays get the sizes that they have with these values of structural parameters. Throws Error where such a value is
-/// no length, or an array is too long.
+/// Sets the sizes of arrays from these values of structural parameters. Throws Error when such a value is not a valid
+/// length, or an array is too long.
 void set_sizes(ModelDescription& description, const StartValues& values);
 
-/// Gives an instance before its initialization the values that a scenario says, structural parameters first, in
-/// configuration mode: numbers as of read_numbers(), texts, binary data as hexadecimal digits. Throws Error.
+/// Sets values of a scenario in an instance before its initialization; structural parameters first, in configuration
+/// mode. Values: numbers (see read_numbers()), texts, binary data as hexadecimal digits. Throws Error.
 void set_start_values(Component& component, const ModelDescription& description, const StartValues& values);
 
 }  // namespace muro::fmu

@@ -13,11 +13,11 @@ namespace {
 
 using model_file::shortest;
 
-constexpr int most_parts = 1000;        ///< of one communication step
-constexpr double smallest_part = 1e-6;  ///< of one communication step; what is less is rounding
+constexpr int most_parts = 1000;        ///< parts of one communication step
+constexpr double smallest_part = 1e-6;  ///< fraction of one communication step; smaller parts are rounding errors
 
 std::string seconds(double s) { return shortest(s) + " s"; }
-/// Without the last bits of a sum of periods: the times of a simulation are whole nanoseconds.
+/// Writes a time without rounding errors of summed periods: times of a simulation are whole nanoseconds.
 std::string instant(double s) { return seconds(std::round(1e9 * s) / 1e9); }
 
 [[noreturn]] void refuse(const std::string& what, const std::string& flag, const std::string& why) {
@@ -51,7 +51,7 @@ void check_step_size(const ModelDescription& d, double size) {
 
 void advance(Component& component, const ModelDescription& d, double begin, double end, double size,
              const std::function<void()>& set_inputs) {
-  const bool can_return = d.version == 3 || d.can_keep_state;  // FMI 3: a discarded step leaves the state as it was
+  const bool can_return = d.version == 3 || d.can_keep_state;  // FMI 3: a discarded step does not change the state
   const bool keeps_state = d.version == 2 && d.can_keep_state && d.variable_step_size;
   const double least = smallest_part * size;
   double at = begin, part = size;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Structural parameters of FMI 3, which are set in configuration mode alone (FMI 3.0, sections 2.3.3 and 2.4.7.4): the
-// FMU of the tests refuses them elsewhere.
+// Structural parameters of FMI 3. They are set only in configuration mode (FMI 3.0, sections 2.3.3 and 2.4.7.4); the
+// FMU of the tests refuses them in other modes.
 #include "fmu_testing.hpp"
 #include "model_description.hpp"
 #include "start_values.hpp"
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Parameters, Structural, ::testing::Bool(), [](const aut
   return test.param ? std::string("InAProcessOfItsOwn") : std::string("InTheProcess");
 });
 
-/// A description of FMI 3 with these variables beside an array whose length is variable 1.
+/// Returns a description of FMI 3 with these variables, and an array whose length is variable 1.
 std::string with_variables(const std::string& variables) {
   return R"(<fmiModelDescription fmiVersion="3.0" modelName="m" instantiationToken="t">
 <CoSimulation modelIdentifier="m"/><ModelVariables>)" +

@@ -9,11 +9,11 @@
 
 namespace muro::fmu {
 
-/// A line of a CSV file (RFC 4180), cell by cell. A cell in quotation marks ends on its line; blanks around cells do
-/// not count. Errors are muro::Error: "FILE:LINE:COLUMN: ...".
+/// A line of a CSV file (RFC 4180), read cell by cell. A cell in quotation marks ends on its line; blanks around cells
+/// are ignored. Errors are muro::Error: "FILE:LINE:COLUMN: ...".
 class TableRow {
  public:
-  /// `begin`: bytes in front that do not count. Throws Error where the line is no text.
+  /// `begin`: number of leading bytes to ignore. Throws Error when the line is not a text.
   TableRow(const std::string& path, std::size_t number, std::string_view line, std::size_t begin = 0)
       : path_(path), line_(line), number_(number), next_(begin), begin_(begin) {
     if (line_.ends_with('\r')) line_.remove_suffix(1);
@@ -23,7 +23,7 @@ class TableRow {
   }
 
   bool is_blank() const { return line_.find_first_not_of(" \t", next_) == line_.npos; }
-  /// Goes to the next cell. False: there is none.
+  /// Moves to the next cell. Returns false when there is none.
   bool next() {
     if (is_over_) return begin_ = line_.size(), false;
     begin_ = skip_blanks(next_);
@@ -43,7 +43,7 @@ class TableRow {
   }
   const std::string& cell() const { return cell_; }
 
-  /// At the cell, or at the end of the line where there is none.
+  /// Throws Error at the cell, or at the end of the line when there is none.
   [[noreturn]] void fail(const std::string& what) const { fail_at(begin_, what); }
 
  private:
@@ -51,7 +51,7 @@ class TableRow {
     throw Error(path_ + ":" + std::to_string(number_) + ":" + std::to_string(place + 1) + ": " + what);
   }
   std::size_t skip_blanks(std::size_t at) const { return std::min(line_.find_first_not_of(" \t", at), line_.size()); }
-  /// Where it ends, behind its second quotation mark.
+  /// Reads a cell in quotation marks; returns the place after the second mark.
   std::size_t read_quoted() {
     cell_.clear();
     for (std::size_t i = begin_ + 1; i < line_.size(); ++i) {

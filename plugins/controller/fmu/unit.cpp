@@ -34,7 +34,7 @@ constexpr NamedUnit named_units[] = {
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/// "a, b" or "a or b" in pieces.
+/// Splits "a, b" or "a or b" into pieces.
 std::vector<std::string_view> pieces(std::string_view text, std::string_view separator) {
   std::vector<std::string_view> found;
   for (std::size_t at; (at = text.find(separator)) != text.npos; text.remove_prefix(at + separator.size()))
@@ -96,7 +96,7 @@ std::optional<Conversion> conversion(const Unit& of_fmu, bool is_relative, std::
     if (same_name || (own && wanted && *own == *wanted)) return Conversion{};
     return std::nullopt;
   }
-  // tools leave rad out of the exponents, or not
+  // equal names are enough: some tools leave rad out of the exponents
   if (!same_name && (!wanted || of_fmu.base->exponents != *wanted)) return std::nullopt;
   return Conversion{of_fmu.base->factor, is_relative ? 0 : of_fmu.base->offset};
 }

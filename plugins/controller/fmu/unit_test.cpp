@@ -66,7 +66,7 @@ TEST(Unit, RefusesOtherQuantitiesAndUnitsThatNobodyDefines) {
   EXPECT_FALSE(conversion({"1", BaseUnit{}}, false, "m"));
   EXPECT_FALSE(conversion({"deg", {}}, false, "rad"));
   EXPECT_FALSE(conversion({"Hz", {}}, false, "rad/s"));
-  const Unit bare_radian{"rad", BaseUnit{}};  // as some tools write it
+  const Unit bare_radian{"rad", BaseUnit{}};  // form that some tools write
   EXPECT_TRUE(conversion(bare_radian, false, "rad"));
 }
 

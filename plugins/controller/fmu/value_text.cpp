@@ -25,7 +25,7 @@ std::vector<std::string_view> split_words(std::string_view text) {
   return words;
 }
 
-/// The number of a word that a Boolean or an item of an enumeration is called by; nothing where it is no such word.
+/// Returns the number of a word that names a Boolean or an enumeration item; nothing for any other word.
 std::optional<std::int64_t> number_of_name(const Variable& v, std::string_view word) {
   if (v.type == Type::boolean && (word == "true" || word == "false")) return word == "true" ? 1 : 0;
   if (!v.items) return std::nullopt;
@@ -34,7 +34,7 @@ std::optional<std::int64_t> number_of_name(const Variable& v, std::string_view w
   return std::nullopt;
 }
 
-/// What a variable takes that is no plain number, as the end of a sentence.
+/// Returns the words that a variable allows besides numbers, as the end of a sentence.
 std::string names_for(const Variable& v) {
   if (v.type == Type::boolean) return ", or true or false";
   if (!v.items) return "";
@@ -43,7 +43,7 @@ std::string names_for(const Variable& v) {
   return "; items of its type are " + quoted_list(names);
 }
 
-/// The number that a word says; integers of 64 bits are exact. Returns what is wrong with it, "" where nothing is.
+/// Reads the number of a word; integers of 64 bits are exact. Returns "" or the problem with it.
 template <class T>
 std::string parse(const Variable& v, std::string_view word, int version, T& result) {
   const auto is_fine = [&] { return v.type != Type::boolean || result == T(0) || result == T(1); };
@@ -57,7 +57,7 @@ std::string parse(const Variable& v, std::string_view word, int version, T& resu
   const auto number = model_file::parse_numbers(word, 1, problem);
   const bool is_legal = number && (!std::is_integral_v<T> || number->front() == std::nearbyint(number->front()));
   if (is_legal && convert(number->front(), result) && is_fine()) return "";
-  const auto named = number_of_name(v, word);  // items may be called by digits: what is a number stays one
+  const auto named = number_of_name(v, word);  // names of items may be digits: a valid number comes first
   if (named && convert(*named, result)) return "";
   if (!number && !named) return problem + names_for(v);
   return "does not fit into its type, " + std::string(name_of(v.type, version));
@@ -66,7 +66,7 @@ std::string parse(const Variable& v, std::string_view word, int version, T& resu
 }  // namespace
 
 std::string read_numbers(const Variable& v, std::string_view text, int version, std::vector<std::byte>& bytes) {
-  const bool is_name = v.size == 1 && number_of_name(v, text);  // which may hold blanks
+  const bool is_name = v.size == 1 && number_of_name(v, text);  // such a name may contain blanks
   const std::vector<std::string_view> words = is_name ? std::vector<std::string_view>{text} : split_words(text);
   return with_fmi_type(v.type, version, [&](auto zero) -> std::string {
     bytes.resize(words.size() * sizeof zero);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Values of variables as scenarios and files write them.
+// Texts of values of variables in scenarios and files.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +13,15 @@
 
 namespace muro::fmu {
 
-/// Reads the numbers of a variable that is no text and no binary data: several separated by blanks for an array, true
-/// or false, the name of an item of an enumeration where that is no number of its type. `bytes` gets them as functions
-/// of FMI `version` take them. Returns what is wrong as the end of a sentence that begins with the text, "" where
-/// nothing is.
+/// Reads the numbers of a variable that is no text and no binary data. An array has several, separated by blanks.
+/// Allowed words are true, false and names of enumeration items, unless the word is a number of the type. `bytes` gets
+/// the numbers in the form of FMI `version`. Returns "" or the problem, as the end of a sentence that begins with the
+/// text.
 std::string read_numbers(const Variable& variable, std::string_view text, int version, std::vector<std::byte>& bytes);
 
-/// Binary data, two hexadecimal digits a byte; nothing where the text is something else.
+/// Reads binary data, two hexadecimal digits for each byte; returns nothing for any other text.
 std::optional<std::vector<std::uint8_t>> bytes_of_hexadecimal(std::string_view text);
-/// What is wrong then, as the end of a sentence.
+/// The problem in that case, as the end of a sentence.
 inline constexpr std::string_view is_no_hexadecimal = "is not made of two hexadecimal digits a byte, such as 00ff";
 
 }  // namespace muro::fmu

@@ -137,7 +137,7 @@ void Axes::connect_joint(Axis& axis, const Link& link) {
   const double speed = std::min(l.velocity, limits::speed), effort = std::min(l.effort, greatest_effort);
   connect_target(Quantity::position, keys::joint_position_target, std::max(l.lower, -limits::joint_position),
                  std::min(l.upper, limits::joint_position));
-  // Who takes both targets follows that of position, once something writes it; motions of several levels may differ.
+  // A motion that takes both targets follows the position, once it is written; motions of several levels may differ.
   const bool one_motion = connector_.constant_array(robot_.base(), keys::motion_level_names).empty();
   if (!one_motion || !is_wanted(object, keys::joint_position_target))
     connect_target(Quantity::velocity, keys::joint_velocity_target, -speed, speed);

@@ -11,29 +11,29 @@
 
 namespace muro::joints {
 
-/// With which a member of a group stands for components of the velocity of the base.
+/// Name by which a member of a group refers to components of the velocity of the base.
 inline constexpr std::string_view base_member = "command.twist";
 
-/// Everything of one robot that clients may read and set: its joints and the velocity of its base. Made when a group
-/// asks for it.
+/// All axes of one robot that clients may read and set: its joints and the velocity of its base. An axis is made when a
+/// group asks for it.
 class Axes {
  public:
-  /// How many states a robot needs.
+  /// Returns the number of states that a robot needs.
   static std::uint32_t count_states(const RobotView& robot) { return std::uint32_t(robot.links.size()) + 6; }
 
-  /// `states`: as many as count_states says. When all have connected.
+  /// `states`: count_states() states. Constructed after all algorithms have connected.
   Axes(Connector& connector, const RobotView& robot, AxisState* states);
 
-  /// What a member of a group stands for: the name of a joint, a pattern of such names, "command.twist" for vx, vy and
-  /// wz, "command.twist.vx" and the like for one component. Throws Error where there is none, or where it is neither
-  /// read nor set. [setup]
+  /// Returns the axes that a member of a group names. A member is the name of a joint, a pattern of such names,
+  /// "command.twist" for vx, vy and wz, or "command.twist.vx" (and so on) for one component. Throws Error when there is
+  /// no such axis, or when it can be neither read nor set. [setup]
   std::vector<Axis*> find(const std::string& member);
-  /// All joints that are read or set, in the order of links, without those that follow others. [setup]
+  /// Returns all joints that can be read or set, in the order of links, without joints that follow others. [setup]
   std::vector<Axis*> all_joints();
-  /// Whether something of the robot takes command.twist from clients. [setup]
+  /// Whether the robot has a part that takes command.twist from clients. [setup]
   bool commands_base() const { return commands_base_; }
 
-  /// Those that were found; valid as long as the states.
+  /// Returns the axes that were found; valid while the states exist.
   std::vector<std::unique_ptr<Axis>> take_all() { return std::move(all_); }
 
  private:
@@ -52,7 +52,7 @@ class Axes {
   AxisState* states_;
   bool commands_base_;
   std::vector<std::unique_ptr<Axis>> all_;
-  std::vector<Axis*> by_place_;  ///< one a state; null: not asked for yet
+  std::vector<Axis*> by_place_;  ///< one for each state; null: no axis yet
 };
 
 }  // namespace muro::joints

@@ -13,16 +13,16 @@ namespace muro::joints {
 
 using wire::Quantity;
 
-/// What is remembered of an axis from step to step. All zero: nothing is set.
+/// State of an axis from step to step. All zero: nothing is set.
 struct AxisState {
   std::int64_t set_at;   ///< ns
-  std::uint32_t client;  ///< who has set it
-  std::uint32_t set_by;  ///< a Quantity; 0: it is not set, or that was taken back
+  std::uint32_t client;  ///< client that has set it
+  std::uint32_t set_by;  ///< a Quantity; 0: it is not set, or the value was withdrawn
 };
 
-/// What an axis is told by.
+/// A property through which an axis is commanded.
 struct Target {
-  double* place = nullptr;  ///< null: it is not told so
+  double* place = nullptr;  ///< null: the axis is not commanded in this way
   double lower = 0, upper = 0;
   std::string_view unit;
 };
@@ -34,26 +34,26 @@ class Axis {
 
   // [setup]
   void set_reading(Quantity q, const double* place, std::string_view unit);
-  /// The velocity of the base along one of its own axes: component 0 to 5 of a twist, which is given in world axes.
+  /// Velocity of the base along one of its own axes: component 0 to 5 of a twist. `twist` is in world axes.
   void set_base_velocity(const Pose* pose, const Twist* twist, std::uint32_t component, std::string_view unit);
   void set_target(Quantity q, const Target& target);
-  bool is_idle() const;  ///< it is neither read nor set
+  bool is_idle() const;  ///< whether it can be neither read nor set
 
   const std::string& name() const { return name_; }
   AxisState& state() const { return state_; }
-  /// By what it is read, or set, where nothing else is said; `standard`: by nothing.
+  /// Quantity to read or set when a request names none; `standard`: there is none.
   Quantity standard_reading() const;
   Quantity standard_target() const;
-  /// Its unit; empty: it is not read so.
+  /// Returns the unit of a reading; empty when the axis has no such reading.
   std::string_view unit_of_reading(Quantity q) const;
   const Target& target(Quantity q) const { return targets_[std::size_t(q)]; }
 
-  // Throw Fault where the axis is not read or set so. [step]
+  // These functions throw Fault when the axis cannot be read or set in this way. [step]
   double read(Quantity q) const;
-  /// Whether `value` may be set.
+  /// Throws Fault when `value` may not be set.
   void check(Quantity q, double value) const;
   void set(Quantity q, double value, wire::Origin origin);
-  /// Velocities, accelerations and efforts become 0, a position target the position.
+  /// Sets velocities, accelerations and efforts to 0, and a position target to the present position.
   void stop();
 
  private:

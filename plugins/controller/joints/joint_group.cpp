@@ -8,8 +8,8 @@
 
 namespace muro::joints {
 
-/// How many axes, then of each: name, unit of what is read, by what it is set, unit of that, its least and its greatest
-/// value.
+/// Writes the number of axes. Then for each axis: name, unit of the reading, quantity that is set, its unit, its lower
+/// and its upper limit.
 void JointGroup::describe(Quantity quantity, std::string& out) const {
   const bool is_standard = quantity == Quantity::standard || quantity == Quantity::setpoint;
   const auto add_word = [&](std::string_view word) { out.append(1, ' ').append(word.empty() ? "-" : word); };

@@ -124,7 +124,7 @@ class JointsController final : public wire::WireController {
     return members;
   }
 
-  /// Nobody stands behind the setpoint any more.
+  /// Whether the setpoint is too old, or its client has left.
   bool is_abandoned(const AxisState& s, std::uint32_t item, std::int64_t now) const {
     if (s.set_by == 0) return false;
     return (timeout_ > 0 && now - s.set_at >= timeout_) || (stops_ && !service(item).is_connected(s.client));

@@ -15,7 +15,7 @@ using wire::numbers_of;
 using wire::Settings;
 using wire::Texts;
 
-/// A base that stands still, a shoulder that turns from -1.5 to 2 rad, an elbow that turns, a slide from 0 to 0.5 m.
+/// Returns an arm: a fixed base, a shoulder that turns from -1.5 to 2 rad, an elbow, a slide from 0 to 0.5 m.
 inline RobotTree arm_tree() {
   return test::tree_of([](RobotBuilder& b) {
     const Inertia inertia{.mass = 1, .ixx = 0.01, .iyy = 0.01, .izz = 0.01};
@@ -39,7 +39,7 @@ inline Settings stream_at(const std::string& where, Settings more = {}) {
   return more;
 }
 
-/// Arms whose joints follow targets of one mode, at 1000 Hz; the controller runs at 100 Hz.
+/// Arms whose joints follow targets of one mode, at 1000 Hz. The controller runs at 100 Hz.
 struct Arms : wire::Served {
   explicit Arms(const std::string& mode, int count = 1, Settings settings = stream_at("tcp=0"), double rate = 100) {
     for (int i = 0; i < count; ++i) arms.push_back(&add("arm_" + std::to_string(i), arm_tree()));
@@ -51,7 +51,7 @@ struct Arms : wire::Served {
   std::vector<const RobotView*> arms;
 };
 
-/// A ball that motion.point moves as it is told.
+/// Balls that motion.point moves as commanded.
 struct Rovers : wire::Served {
   explicit Rovers(Settings settings = stream_at("tcp=0"), int count = 1, double rate = 50) {
     for (int i = 0; i < count; ++i)

@@ -11,7 +11,7 @@
 namespace muro::joints {
 namespace {
 
-/// Drives a rover to x = 1 m by what it is told about its velocity, taking its time over each message.
+/// Drives a rover to x = 1 m by the velocity that it reads. Takes random time over each message.
 void drive_home(std::uint16_t port, unsigned seed) {
   Client client(port);
   std::mt19937 random(seed);
@@ -32,7 +32,7 @@ void drive_home(std::uint16_t port, unsigned seed) {
 
 const Texts in_lockstep{"tcp=0", "lockstep={robot}", "timeout=20"};
 
-/// Two rovers, each with a client, for 2 s.
+/// Runs two rovers, each with a client, for 2 s. Returns the hash.
 std::uint64_t hash_of_run(unsigned seed, const std::string& recording = "") {
   Rovers s({{"stream", in_lockstep}}, 2);
   if (!recording.empty()) s.use("recorder.inputs", 50, {}, {{"file", recording}});
@@ -104,7 +104,7 @@ TEST(LockstepOfJoints, AClientThatComesBackIsOwedWhatItAsksFor) {
   client.close();
   Client again(s.port("rover_0/joints"));
   again.say("wait 0.1\nwait 1000\n");
-  ::usleep(20'000);  // both are known when the next step begins
+  ::usleep(20'000);  // both clients are connected when the next step begins
   s.run_until(210'000'000);
   EXPECT_EQ(again.wait_line(), "state 0.2 0 0 0");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One client drives a vehicle whatever moves it.
+// A client drives a vehicle in the same way under every motion.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,7 +12,7 @@
 namespace muro::joints {
 namespace {
 
-/// Drives 1 m ahead by ideal odometry, and stops; then turns by a quarter to the left.
+/// Drives 1 m ahead by ideal odometry and stops; then turns left by 90 degrees.
 void drive_ahead_and_turn(std::uint16_t port) {
   Client client(port);
   double x = 0, yaw = 0, last = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a scenario may say, and what it is told where it may not.
+// Settings that a scenario may give, and the messages for wrong ones.
 #include <gtest/gtest.h>
 
 #include "joints_testing.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What becomes of setpoints: time-outs, clients that leave, resets, snapshots.
+// End of setpoints: time-outs, clients that leave, resets, snapshots.
 #include <gtest/gtest.h>
 
 #include "joints_testing.hpp"
@@ -88,7 +88,7 @@ TEST(Setpoints, AreClearedByAResetAndClientsStayConnected) {
   ask(s, client, "set base 0.5 0 0.25");
   client.say("wait 1000\nget base setpoint\n");
   s.run_for(0.2);
-  ::usleep(100'000);  // by then both lines have come, also where much else runs
+  ::usleep(100'000);  // by then both lines have arrived, also on a busy machine
   s.run_for(0.2);
   s.reset();
   EXPECT_EQ(s.state_hash(), fresh);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Servers with a token: who does not say it gets nothing.
+// Servers with a token: a client that does not give it gets nothing.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

@@ -8,15 +8,15 @@
 
 namespace muro::jsonrpc {
 
-/// What the answers to one message may hold, those to all requests of a batch together. It is asked for before the
-/// answer is computed.
+/// Limits of the answers to one message; all requests of a batch share them. A method spends from the budget before it
+/// computes its answer.
 class Budget {
  public:
-  static constexpr std::size_t most_numbers = 500'000;  ///< some 10 MB of text
+  static constexpr std::size_t most_numbers = 500'000;  ///< about 10 MB of text
   static constexpr std::size_t most_names = 20'000;
   static constexpr std::size_t most_bytes = 16 << 20;
 
-  /// Throw RpcError (too many), which names the limit.
+  /// These functions throw RpcError (too many), which names the limit.
   void spend_numbers(std::size_t count) { spend(count, most_numbers, numbers_, "numbers"); }
   void spend_names(std::size_t count) { spend(count, most_names, names_, "names"); }
   void spend_bytes(std::size_t count) { spend(count, most_bytes, bytes_, "bytes"); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Methods that change the state of the simulation. Each asks the host, which carries it out when the present instant
-// is complete, and records it.
+// Methods that change the state of the simulation. They send requests to the host. The host carries out each request
+// when the present instant is complete, and records it.
 #include "method.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/text/quote.hpp"
@@ -10,11 +10,11 @@ namespace muro::jsonrpc {
 
 namespace {
 
-constexpr std::size_t most_elements = 10'000;  ///< that one request sets
+constexpr std::size_t most_elements = 10'000;  ///< most elements in one request
 constexpr std::size_t most_snapshots = 16;
-constexpr std::size_t longest_name = 64;  ///< bytes, of a snapshot's
+constexpr std::size_t longest_name = 64;  ///< bytes in the name of a snapshot
 
-/// An element of a property and what is to be in it.
+/// An element of a property and its new bytes.
 struct Change {
   PropertyName property;
   std::uint32_t element = 0;
@@ -58,7 +58,7 @@ Quat orientation_of(const Params& p, bool& is_given) {
   return turn.normalized();
 }
 
-/// Where the object is now; at the origin where it has no pose.
+/// Returns the present pose of the object; the identity when it has no pose.
 Pose pose_of(const Call& c, ObjectId object) {
   for (const LiveProperty& p : c.served.scene.inspection().properties(object))
     if (p.key->name == "pose" && p.key->type->name == ValueTraits<Pose>::name && p.data)
@@ -66,7 +66,7 @@ Pose pose_of(const Call& c, ObjectId object) {
   return {};
 }
 
-/// "position" with an orientation, or x, y, z and yaw. What is not given of z stays, the orientation is upright.
+/// Reads "position" and an orientation, or x, y, z and yaw. Defaults: the present z, and an upright orientation.
 Pose wanted_pose(const Call& c, ObjectId object) {
   constexpr double most = 1e9;
   const Params& p = c.params;
@@ -112,7 +112,7 @@ void set(Call& c) {
   } else {
     add_changes(c, c.params.text("property"), c.params.at("value"), changes);
   }
-  for (const Change& change : changes) {  // all of them are possible
+  for (const Change& change : changes) {  // reached only when all changes are possible
     const std::uint64_t ticket = c.effect();
     c.served.run.set(change.property.object, change.property.key, change.element, change.bytes, ticket, c.done());
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Methods that change the simulation: what they ask of the host, and what is granted.
+// Methods that change the simulation: their requests to the host, and grants.
 #include <gtest/gtest.h>
 
 #include "service_testing.hpp"
@@ -10,7 +10,7 @@ namespace {
 using testing::Dialogue;
 using testing::request;
 
-/// The code of the error; 0: there is none.
+/// Returns the code of the error; 0 when there is none.
 int code_of(const std::string& reply) {
   const Json all = Json::parse(reply, nullptr, false);
   return all.contains("error") ? all["error"]["code"].get<int>() : 0;

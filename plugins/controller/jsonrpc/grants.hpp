@@ -8,8 +8,8 @@
 
 namespace muro::jsonrpc {
 
-/// What clients may change: the patterns of the parameter `write`, in which * stands for any characters and ? for one.
-/// "call:NAME" grants calls, "object:property" grants properties, and neither grants what is of the other kind.
+/// The changes that clients may make: the patterns of the parameter `write`. * matches any characters, ? matches one.
+/// "call:NAME" grants only calls, "object:property" grants only properties.
 class Grants {
  public:
   explicit Grants(std::span<const std::string_view> patterns = {}) : patterns_(patterns.begin(), patterns.end()) {}
@@ -23,7 +23,7 @@ class Grants {
   std::vector<std::string> patterns_;
 };
 
-/// Whether a pattern is one for calls; `method` is then what follows "call:".
+/// Whether a pattern is for calls; `method` is then the text after "call:".
 bool is_for_calls(std::string_view pattern, std::string_view& method);
 
 }  // namespace muro::jsonrpc

@@ -7,7 +7,7 @@ namespace muro::jsonrpc {
 
 namespace {
 
-/// Of a text that need not be JSON: found before anything is parsed.
+/// Checks the nesting before anything is parsed. The text need not be JSON.
 bool is_nested_too_deep(std::string_view text) {
   int depth = 0;
   bool in_string = false;

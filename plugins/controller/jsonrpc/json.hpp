@@ -8,21 +8,21 @@
 
 namespace muro::jsonrpc {
 
-using Json = nlohmann::json;           ///< what comes in: members are found in logarithmic time
-using Reply = nlohmann::ordered_json;  ///< what goes out, in the order in which it was put together
+using Json = nlohmann::json;           ///< input: members are found in logarithmic time
+using Reply = nlohmann::ordered_json;  ///< output, in the order in which it was built
 
-/// Arrays and objects within each other; no message of the protocol needs more than a few.
+/// Limit for arrays and objects inside each other; no message of the protocol needs more than a few levels.
 inline constexpr int deepest_nesting = 32;
 
-/// Nothing where the text is no JSON (RFC 8259, in UTF-8), or nested deeper than that.
+/// Returns nothing when the text is no JSON (RFC 8259, in UTF-8), or nested deeper than that.
 std::optional<Json> parse(std::string_view text);
 
-/// What is no UTF-8 is replaced.
+/// Returns the message as text. Replaces bytes that are no UTF-8.
 std::string text_of(const Reply& message);
-/// The same as a line, with its end.
+/// Returns the message as a line, with its end.
 std::string line_of(const Reply& message);
 
-/// JSON has no infinite numbers: they are the texts "inf", "-inf" and "nan". All others come back as the same bits.
+/// Returns a finite number, which reads back with the same bits, or the text "inf", "-inf" or "nan".
 Reply number(double value);
 
 }  // namespace muro::jsonrpc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Any property and the control of the run for programs outside, by JSON-RPC 2.0; see README.md.
+// Access to any property, and control of the run, for external programs, by JSON-RPC 2.0; see README.md.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -40,9 +40,9 @@ constexpr Description description{
 };
 
 constexpr stream::Limits limits{.output_bytes = 32 << 20, .is_recorded = false, .has_late_replies = true};
-/// Of output that waits, above which updates are dropped: the rest is for replies.
+/// Limit of waiting output (bytes) for updates: above it they are dropped. The rest is for replies.
 constexpr std::size_t most_for_updates = 4 << 20;
-/// Of output that waits, above which no request is begun: the rest is for the reply to one message.
+/// Limit of waiting output (bytes) for new requests: above it none is begun. The rest is for the reply to one message.
 constexpr std::size_t most_for_requests = 12 << 20;
 constexpr auto time_in_a_step = std::chrono::milliseconds(5);
 
@@ -72,7 +72,7 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
     Served served{SceneNames(*inspection_), *run_, read_grants(c, p.texts("write"))};
     for (const RobotView* robot : c.robots()) served.scene.add_robot(std::string(robot->name), robot->base());
     service_.emplace(std::move(served), static_cast<Outlet&>(*this));
-    // in lockstep it is clients that make time go on
+    // in lockstep the clients make time go on
     if (stream_->address().lockstep.empty()) service_->set_time_in_a_step(time_in_a_step);
     constexpr std::string_view poses[] = {"*:pose"};
     const bool is_given = p.given("refresh");
@@ -100,14 +100,14 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
   void step(const Step& step, Range) override {
     service_->begin_step(step.time, std::llround(1e9 * step.dt));
     service_->answer_due();
-    // In lockstep, time stands until the client waits for something that takes time.
+    // In lockstep, time stands still until the client waits for something that takes time.
     do stream_->begin(step.time);
     while (serve_events() && !stream_->address().lockstep.empty() && !service_->is_waiting());
     service_->send_updates();
   }
 
  private:
-  /// Whether there were any.
+  /// Returns whether there were any events.
   bool serve_events() {
     bool any = false;
     while (const stream::Event* event = stream_->next()) {
@@ -135,7 +135,7 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
       serve_events();
       service_->send_updates();
       if (const auto pauser = service_->who_keeps_it_waiting()) tell_pause(*pauser);
-    } catch (...) {  // there is no memory: what was asked is not answered
+    } catch (...) {  // no memory: the request is not answered
     }
   }
 
@@ -155,7 +155,7 @@ class JsonRpc final : public Algorithm, private Outlet, private PauseAttendant {
   bool send_update(std::uint32_t client, std::string_view line) override {
     return stream_->send(client, line, most_for_updates);
   }
-  /// In a replay it is the recording that changes it.
+  /// Marks the run as not repeatable. In a replay the recording makes the changes.
   void changed() override {
     ExternalInputs* const inputs = stream_->address().lockstep.empty() ? inputs_ : nullptr;
     if (inputs && !std::exchange(has_changed_, true))

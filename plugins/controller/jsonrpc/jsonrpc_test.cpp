@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// controller.jsonrpc in real simulations, spoken to over sockets.
+// controller.jsonrpc in real simulations, with clients on sockets.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -23,7 +23,7 @@ namespace {
 using test::Peer;
 using Texts = std::vector<std::string>;
 
-/// A ball that moves as commanded, 1 m over the ground, and a server at 50 Hz on any free port.
+/// A ball that moves as commanded, 1 m above the ground, and a server at 50 Hz on any free port.
 struct Served : test::Scene {
   explicit Served(std::map<std::string, ParameterInput> settings = {}) {
     if (!settings.contains("stream")) settings["stream"] = Texts{"tcp=0"};
@@ -38,7 +38,7 @@ struct Served : test::Scene {
   }
   ~Served() { stop(); }
 
-  /// Runs at this speed; 0: as fast as it goes.
+  /// Runs at this speed; 0: as fast as possible.
   Served& run(double speed = 0) {
     build();
     set_pacing({speed});
@@ -73,7 +73,7 @@ struct Client {
   explicit Client(Peer&& its_peer) : peer(std::move(its_peer)) {}
 
   std::string line() { return peer.wait_line(); }
-  /// Result or error of a request.
+  /// Returns the result or the error of a request.
   Json ask(const std::string& method, const std::string& params = "{}") {
     EXPECT_TRUE(peer.say(R"({"jsonrpc":"2.0","id":1,"method":")" + method + R"(","params":)" + params + "}\n"));
     for (;;) {
@@ -126,7 +126,7 @@ TEST(JsonRpc, AddsUpWhatSeveralContribute) {
   const RobotView& ball = s.add("ball", test::ball(1, 0.1, 0.5));
   s.use("motion.simplified", 100, s.all_robots());
   s.push(ball) = {{1, 2, 9}, {0, 0, 5}};
-  s.push(ball) = {{-1, -2, 0.81}, {0, 0, -5}};  // it hangs in the air
+  s.push(ball) = {{-1, -2, 0.81}, {0, 0, -5}};  // the two forces hold it in the air
   const test::ScratchFolder folder;
   const std::string path = folder.path("muro.sock");
   s.use("controller.jsonrpc", 50, {}, {{"stream", Texts{"unix=" + path}}, {"refresh", Texts{"*:pose", "*:wrench.*"}}});
@@ -330,7 +330,7 @@ TEST(JsonRpc, RefusesGrantsOfWhatIsNotThere) {
   EXPECT_SAYS(complaint("call:get"), "all others need no grant");
 }
 
-/// A session in which each request is sent when the one before it has been answered.
+/// Returns the replies of a session in which each request is sent after the answer to the one before.
 std::string session_in_lockstep(double pause_of_client) {
   Served s({{"stream", Texts{"tcp=0", "lockstep=pilot"}}});
   s.run();

@@ -7,7 +7,7 @@ namespace {
 
 bool can_be_id(const Json& id) { return id.is_string() || id.is_number() || id.is_null(); }
 
-/// Why an entry is no request; empty: it is one.
+/// Returns why an entry is no request; empty when it is one.
 std::string problem_of(const Json& entry) {
   if (!entry.is_object()) return "a request is an object";
   const auto version = entry.find("jsonrpc");
@@ -59,7 +59,7 @@ void Message::add(const Json& entry) {
   if (const auto params = entry.find("params"); params != entry.end()) request.params = *params;
 }
 
-/// As text, which takes a tenth of the memory.
+/// Adds a reply as text, which takes a tenth of the memory.
 void Message::add_reply(const Reply& id, const char* what, Reply value) {
   std::string text = text_of({{"jsonrpc", "2.0"}, {what, std::move(value)}, {"id", id}});
   try {

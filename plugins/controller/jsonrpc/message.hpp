@@ -9,7 +9,7 @@
 
 namespace muro::jsonrpc {
 
-/// A request as it came in.
+/// A request that was received.
 struct Request {
   Reply id;  ///< text, number or null
   bool is_notification = false;
@@ -17,25 +17,25 @@ struct Request {
   Json params;  ///< an array or an object; null: none were given
 };
 
-/// What a client has sent in one line: a request or a batch of them (JSON-RPC 2.0, sections 4 to 6).
+/// The content of one line of a client: a request or a batch of them (JSON-RPC 2.0, sections 4 to 6).
 class Message {
  public:
   static constexpr std::size_t largest_batch = 1000;
 
-  /// Answers by itself what is no request.
+  /// Reads a line. Entries that are no requests get their answers here.
   explicit Message(std::string_view line);
 
-  /// The request to be answered next. Null: all are.
+  /// Returns the request to answer next; null when all are answered.
   const Request* present() const { return requests_.empty() ? nullptr : &requests_.front(); }
-  /// How many are to be answered, with that one.
+  /// Returns the number of requests to answer, including the present one.
   std::size_t left() const { return requests_.size(); }
-  /// What the answers may hold.
+  /// Returns the limits for the answers.
   Budget& budget() { return budget_; }
-  /// Answers the present one; for a notification, the answer is kept to ourselves.
+  /// Answers the present request. The answer to a notification is not sent.
   void answer(Reply result);
   void fail(const RpcError& error);
 
-  /// The line to be sent when all are answered; empty where there is nothing to say.
+  /// Returns the line to send when all are answered; empty when there is no answer.
   std::string reply() const;
 
  private:
@@ -45,7 +45,7 @@ class Message {
   bool is_batch_ = false;
   std::deque<Request> requests_;
   Budget budget_;
-  std::string replies_;  ///< with commas between them
+  std::string replies_;  ///< separated by commas
 };
 
 }  // namespace muro::jsonrpc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Messages and replies as the specification of JSON-RPC 2.0 has them in its section 7.
+// Messages and replies from section 7 of the specification of JSON-RPC 2.0.
 #include "message.hpp"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 namespace muro::jsonrpc {
 namespace {
 
-/// The methods of the specification's examples.
+/// Carries out the methods of the specification's examples.
 void answer_as_example(Message& message) {
   const Request& r = *message.present();
   const Json& p = r.params;
@@ -28,7 +28,7 @@ void answer_as_example(Message& message) {
   }
 }
 
-/// What a line is answered with, without the explanations that the specification leaves open.
+/// Returns the reply to a line, without the explanations that the specification does not define.
 Json reply_to(std::string_view line) {
   Message message(line);
   while (message.present()) answer_as_example(message);
@@ -100,7 +100,7 @@ TEST(Message, ThatIsABatchIsAnsweredInOneLine) {
     {"jsonrpc": "2.0", "error": {"code": -32600, "message": "Invalid Request"}, "id": null},
     {"jsonrpc": "2.0", "error": {"code": -32600, "message": "Invalid Request"}, "id": null},
     {"jsonrpc": "2.0", "error": {"code": -32600, "message": "Invalid Request"}, "id": null}])");
-  // The replies may come in any order; what is no request is answered first here.
+  // The replies may come in any order; here entries that are no requests are answered first.
   expect_dialogue(R"([{"jsonrpc": "2.0", "method": "sum", "params": [1,2,4], "id": "1"},
         {"jsonrpc": "2.0", "method": "notify_hello", "params": [7]},
         {"jsonrpc": "2.0", "method": "subtract", "params": [42,23], "id": "2"},

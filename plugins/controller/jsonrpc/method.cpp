@@ -27,7 +27,7 @@ constexpr Method all[] = {
     {"wait", of_wait, false, wait},
     {"subscribe", of_subscribe, false, subscribe},
     {"unsubscribe", of_unsubscribe, false, unsubscribe},
-    {"set", of_set, false, set},  // each property is granted by itself
+    {"set", of_set, false, set},  // each property is granted separately
     {"place", of_place, true, place},
     {"pause", of_pause, true, pause},
     {"resume", {}, true, resume},

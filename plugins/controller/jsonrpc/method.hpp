@@ -18,26 +18,26 @@
 
 namespace muro::jsonrpc {
 
-/// The client that has the run stand, now or once it has gone on for a while.
+/// The client that has paused the run, or will pause it after some time.
 struct Pauser {
   std::uint32_t client = 0;
-  bool stays = false;  ///< the pause, when the client goes
+  bool stays = false;  ///< whether the pause stays when the client leaves
 };
 
-/// What methods work on.
+/// The data that methods use.
 struct Served {
   SceneNames scene;
   RunControl& run;
   Grants grants;
-  std::int64_t time = 0;                           ///< ns of simulated time
-  std::int64_t period = 0;                         ///< ns, of the controller
-  bool is_complete = false;                        ///< the instant: not within a step
-  std::set<std::string, std::less<>> snapshots{};  ///< names of those that clients have made
-  std::optional<Pauser> pauser{};                  ///< none: it goes on, or others have it stand
-  std::string token{};                             ///< which clients have to say first; empty: they have not
+  std::int64_t time = 0;                           ///< simulated time, ns
+  std::int64_t period = 0;                         ///< period of the controller, ns
+  bool is_complete = false;                        ///< whether the instant is complete: not within a step
+  std::set<std::string, std::less<>> snapshots{};  ///< names of snapshots that clients have made
+  std::optional<Pauser> pauser{};                  ///< none: the run goes on, or others have paused it
+  std::string token{};                             ///< token that clients have to give first; empty: none
 };
 
-/// A request that is being carried out. Either it is answered at once, or it waits for something.
+/// A request that is being carried out. It is answered at once, or it waits for a condition.
 class Call {
  public:
   Call(Served& all, Conversation& its_client, const Params& its_params, RequestDone& done)
@@ -47,11 +47,11 @@ class Call {
   Conversation& client;
   const Params& params;
 
-  /// Answers now. What neither answers nor waits for something is answered with the time.
+  /// Answers now. A request that neither answers nor waits is answered with the time.
   void answer(Reply result) { result_ = std::move(result); }
-  /// Of the message that the request is part of.
+  /// Returns the budget of the message that contains the request.
   Budget& budget() { return client.message->budget(); }
-  /// Answers with the time when all effects are done. Hand ticket and `done` to each request to the simulation.
+  /// Makes the call answer with the time when all its changes are done. Give the ticket and `done` to the simulation.
   std::uint64_t effect() {
     client.pending.until = Pending::Until::effects;
     ++client.pending.effects;
@@ -59,10 +59,10 @@ class Call {
   }
   static std::uint64_t ticket_of(const Conversation& c) { return std::uint64_t(c.requests) << 32 | c.client; }
   RequestDone* done() { return &done_; }
-  /// Answers with the time then.
+  /// Makes the request wait until the condition is met at `time` or later; then it answers with the time.
   void wait_for(Pending::Until until, std::int64_t time) { client.pending = {until, time, 0, ""}; }
 
-  /// What it was answered with; null: nothing.
+  /// Returns the answer; null when there is none.
   Reply take_result() { return std::move(result_); }
 
  private:
@@ -72,21 +72,21 @@ class Call {
 
 struct Method {
   std::string_view name;
-  std::span<const std::string_view> parameters;  ///< in the order in which they may come without names
-  bool is_granted = false;                       ///< only to scenarios that have "call:NAME"
+  std::span<const std::string_view> parameters;  ///< in the order for parameters without names
+  bool is_granted = false;                       ///< allowed only when the scenario grants "call:NAME"
   void (*carry_out)(Call&) = nullptr;            ///< throws RpcError
 };
 
-/// All that there are.
+/// Returns all methods.
 std::span<const Method> methods();
 
-/// {"time": ns, "seconds": s}, which every result begins with that has nothing else to say.
+/// Returns {"time": ns, "seconds": s}: the begin of every result, or the whole of it.
 Reply time_reply(std::int64_t time);
 
-/// The parameter `encoding`.
+/// Reads the parameter `encoding`.
 Encoding encoding_of(const Params& params);
 
-// In reading_methods.cpp, subscription_methods.cpp, changing_methods.cpp, run_methods.cpp.
+// Defined in reading_methods.cpp, subscription_methods.cpp, changing_methods.cpp, run_methods.cpp.
 void authenticate(Call&);
 void info(Call&);
 void list(Call&);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines that nobody would say: each is answered in one line of JSON, or not at all, and nothing grows.
+// Lines that no client would send: each gets one line of JSON or no answer, and no memory grows.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 using testing::Dialogue;
 
-/// Requests of all methods.
+/// Returns requests of all methods.
 std::vector<std::string> seeds() {
   std::vector<std::string> all = {
       R"([{"jsonrpc":"2.0","id":1,"method":"get","params":["rover:pose"]},{"jsonrpc":"2.0","method":"pause"},3])",
@@ -89,7 +89,7 @@ TEST(MutatedLines, AreAnsweredOrIgnored) {
   EXPECT_GT(replies, 10'000u);
   EXPECT_GT(errors, 5'000u);
   EXPECT_LE(d.service.clients(), 2u);
-  // it still serves
+  // the service still works
   d.service.connected(5);
   EXPECT_NE(d.say(R"({"jsonrpc":"2.0","id":1,"method":"time"})", 5).find("result"), std::string::npos);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Methods that look at the simulation.
+// Methods that read the simulation.
 #include <cstdio>
 #include <set>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Methods that look at the simulation, and how requests fail.
+// Methods that read the simulation, and failing requests.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 using testing::Dialogue;
 using testing::request;
 
-/// Says a request, and returns result or error.
+/// Sends a request, and returns the result or the error.
 Json ask(Dialogue& d, const std::string& method, const std::string& params = "{}") {
   const Json all = Json::parse(d.say(testing::request(method, params)));
   return all.contains("result") ? all["result"] : all["error"];

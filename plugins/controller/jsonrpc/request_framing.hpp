@@ -5,8 +5,8 @@
 
 namespace muro::jsonrpc {
 
-/// One message a line. A client whose first line begins with anything but an object or a batch speaks another protocol,
-/// as a browser does that was talked into a POST: it is disconnected before its second line is looked at.
+/// Takes one line as a message. A client whose first line does not begin with an object or a batch speaks another
+/// protocol, such as a browser that was tricked into a POST. It is disconnected before its second line is read.
 inline std::size_t size_of_first(std::string_view bytes, bool is_first_of_client) {
   if (is_first_of_client && bytes.front() != '{' && bytes.front() != '[') return stream::Framing::invalid;
   return stream::line_size(bytes, is_first_of_client);

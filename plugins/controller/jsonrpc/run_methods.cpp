@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Methods that let time pass or stand.
+// Methods that let time pass or stop it.
 #include <algorithm>
 #include <cmath>
 
@@ -9,11 +9,11 @@ namespace muro::jsonrpc {
 
 namespace {
 
-constexpr double longest = 1e9;  ///< s that one request lets pass
+constexpr double longest = 1e9;  ///< longest time that one request lets pass, s
 
 std::int64_t nanoseconds(double seconds) { return std::int64_t(std::llround(1e9 * seconds)); }
 
-/// Unless others have the run stand already.
+/// Makes the client the owner of the pause, unless others have paused the run already.
 void take_pause(Call& c) {
   if (c.served.run.is_paused() && !c.served.pauser) return;
   c.served.pauser = Pauser{c.client.client, c.params.flag("keep", false)};
@@ -53,7 +53,7 @@ void step(Call& c) {
   c.wait_for(Pending::Until::pause, c.served.time + ns);
 }
 
-/// The reply goes out before the run ends.
+/// Ends the run. The reply is sent before that.
 void stop(Call& c) {
   c.served.scene.inspection().stop();
   c.answer(time_reply(c.served.time));
@@ -62,7 +62,7 @@ void stop(Call& c) {
 void wait(Call& c) {
   const double seconds = c.params.has("seconds") ? c.params.real("seconds", 0, longest) : 0;
   const std::int64_t ns = nanoseconds(seconds);
-  // Between instants, time may be 1 ns after the last one; within a step, that step does not count.
+  // Between instants, the time may be 1 ns after the last instant. Within a step, that step does not count.
   const std::int64_t rest = c.served.is_complete ? std::max<std::int64_t>(ns - 1, 0) : std::max<std::int64_t>(ns, 1);
   c.wait_for(Pending::Until::instant, c.served.time + rest);
 }

@@ -10,7 +10,7 @@ namespace muro::jsonrpc {
 
 namespace {
 
-/// Names with which a wrong one is compared: that takes its time.
+/// Most names that a wrong name is compared with, because comparing takes time.
 constexpr std::size_t most_candidates = 5000;
 
 template <class Names>
@@ -83,7 +83,7 @@ LiveProperty SceneNames::live(const PropertyName& name) const {
   throw RpcError{Code::not_there, quote(name.text) + " is not there any more"};
 }
 
-/// Calls `visit` with the object, the key ("" for objects) and the name of all that matches.
+/// Calls `visit` with the object, the key ("" for objects) and the name of each match.
 template <class Visit>
 void SceneNames::each(std::string_view pattern, Visit visit) const {
   const bool names_objects = pattern.find(':') == std::string_view::npos;

@@ -13,7 +13,7 @@
 
 namespace muro::jsonrpc {
 
-/// A property by its names. It is looked up anew wherever it is read: lists move.
+/// A property by its names. It is searched again for each read, because lists move in memory.
 struct PropertyName {
   ObjectId object = no_object;
   std::string key;
@@ -25,25 +25,25 @@ class SceneNames {
  public:
   explicit SceneNames(Inspection& inspection);
 
-  /// "rover" is the base of the robot `rover`, as is "rover/base_link".
+  /// Adds a robot's name for its base: "rover" is then the same object as "rover/base_link".
   void add_robot(std::string name, ObjectId base) { robots_.emplace(std::move(name), base); }
 
-  /// A property that several algorithms add to, which inspection does not show, as it was bound.
+  /// Adds a property that several algorithms add to, with its binding. Inspection does not show such sums.
   void add_sum(ObjectId object, const KeyInfo& key, const SumHeader* sum);
 
   Inspection& inspection() const { return inspection_; }
-  /// Throws RpcError with the nearest name where there is none.
+  /// Returns the object of a name. Throws RpcError with the nearest name when there is none.
   ObjectId object(std::string_view name) const;
-  /// "object:property". Throws RpcError with the nearest name where there is none.
+  /// Returns the property "object:property". Throws RpcError with the nearest name when there is none.
   PropertyName property(std::string_view name) const;
-  /// As it lies in memory now; good until the next call.
+  /// Returns the property as it is in memory now; valid until the next call.
   LiveProperty live(const PropertyName& name) const;
 
-  /// Names that match a pattern in order of creation, `most` at most; `left_out`: how many more there are. A pattern
-  /// without a colon names objects, one with a colon "object:property".
+  /// Returns at most `most` names that match a pattern, in order of creation; `left_out`: number of further names. A
+  /// pattern without a colon matches objects, a pattern with a colon "object:property".
   std::vector<std::string> matching(std::string_view pattern, std::size_t most, std::size_t& left_out) const;
-  /// What a pattern "object:property" matches, or the one property of a name without wildcards. Throws RpcError where
-  /// there is none, or more than `most`.
+  /// Returns the properties that a pattern "object:property" matches, or the property of a name without wildcards.
+  /// Throws RpcError when there is none, or when there are more than `most`.
   std::vector<PropertyName> properties(std::string_view pattern, std::size_t most) const;
 
  private:
@@ -51,12 +51,12 @@ class SceneNames {
   void each(std::string_view pattern, Visit visit) const;
 
   Inspection& inspection_;
-  /// All properties of an object; good until the next call.
+  /// Returns all properties of an object; valid until the next call.
   const std::vector<LiveProperty>& all_of(ObjectId object) const;
 
   struct Sum {
     std::string key, unit;
-    KeyInfo info;  ///< with these texts
+    KeyInfo info;  ///< its texts are those of this struct
     const SumHeader* header;
     std::vector<double> total;
   };

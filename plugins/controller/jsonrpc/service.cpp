@@ -10,7 +10,7 @@ namespace muro::jsonrpc {
 
 namespace {
 
-/// Throws RpcError where there is none of that name.
+/// Throws RpcError when there is no such method.
 const Method& method_of(const std::string& name) {
   std::vector<std::string> known;
   for (const Method& m : methods()) {
@@ -66,7 +66,7 @@ void Service::connected(std::uint32_t client) {
   c.is_trusted = served_.token.empty();
 }
 
-/// Those that have not said the token in time.
+/// Disconnects clients that have not given the token in time.
 void Service::hang_up_on_strangers() {
   const auto now = std::chrono::steady_clock::now();
   for (auto& [client, c] : conversations_) {
@@ -82,7 +82,7 @@ void Service::disconnected(std::uint32_t client) {
   forget_who_left();
 }
 
-/// Those that have been answered, and the first ones of too many.
+/// Removes clients that have left: those with no open request, and the first ones when there are too many.
 void Service::forget_who_left() {
   const auto left = [](const auto& entry) { return entry.second.has_left; };
   auto surplus = std::count_if(conversations_.begin(), conversations_.end(), left) - std::ptrdiff_t(most_left);
@@ -99,7 +99,7 @@ void Service::received(std::uint32_t client, std::string_view line) {
   if (found == conversations_.end() || found->second.is_over || is_blank(line)) return outlet_.answered();
   Conversation& c = found->second;
   if (c.lines.size() >= Conversation::most_lines || c.bytes + line.size() > Conversation::most_bytes) {
-    if (!outlet_.has_room(client)) {  // it goes on asking, and does not read
+    if (!outlet_.has_room(client)) {  // the client goes on sending and does not read
       end(c);
       return outlet_.answered();
     }
@@ -114,7 +114,7 @@ void Service::received(std::uint32_t client, std::string_view line) {
   hold_or_release(c);
 }
 
-/// Long before it has said too much.
+/// Stops or resumes reading from a client, long before it has reached its limits.
 void Service::hold_or_release(Conversation& c) {
   constexpr std::size_t many = Conversation::most_lines / 8, much = Conversation::most_bytes / 8;
   const bool is_full = c.lines.size() >= many || c.bytes >= much;
@@ -122,9 +122,9 @@ void Service::hold_or_release(Conversation& c) {
   if (c.is_held ? has_room : is_full) outlet_.hold(c.client, c.is_held = !c.is_held);
 }
 
-/// Carries out requests until one of them waits, all are answered, the client does not read, or there is no time left.
+/// Carries out requests until one of them waits, all are answered, the client does not read, or no time remains.
 void Service::carry_on(Conversation& c, Lines lines) {
-  if (c.is_active) return;  // further up the stack it will go on
+  if (c.is_active) return;  // a caller on the stack goes on with it
   c.is_active = true;
   const bool had_time = has_time();
   while (!c.is_over && c.pending.until == Pending::Until::nothing && has_time()) {
@@ -175,7 +175,7 @@ void Service::begin_request(Conversation& c) {
 void Service::finish_message(Conversation& c) {
   const std::string reply = c.message->reply();
   c.message.reset();
-  const bool is_lost = !reply.empty() && !outlet_.send(c.client, reply);  // it would wait for it for ever
+  const bool is_lost = !reply.empty() && !outlet_.send(c.client, reply);  // else the client waits for ever
   if (is_lost || c.failures >= Conversation::most_failures) end(c);
   outlet_.answered();
 }
@@ -257,7 +257,7 @@ void Service::done(std::uint64_t ticket, std::string_view problem) noexcept {
     const std::string why = c.pending.problem;
     const RpcError refused{Code::refused, why};
     end_wait(c, Lines::later, why.empty() ? nullptr : &refused);
-  } catch (...) {  // no memory for the reply: nobody is left to be told
+  } catch (...) {  // no memory for the reply: the client gets none
   }
 }
 

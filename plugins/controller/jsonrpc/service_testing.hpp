@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A simulation for tests of the service that is nothing but memory.
+// A simulation for tests of the service, entirely in memory.
 #pragma once
 
 #include <deque>
@@ -66,7 +66,7 @@ class FakeInspection final : public Inspection {
   std::vector<LiveProperty> all_;
 };
 
-/// Carries out what is asked when told to, as hosts do between instants.
+/// Carries out requests when complete() is called, as hosts do between instants.
 class FakeRun final : public RunControl {
  public:
   explicit FakeRun(FakeInspection& its_scene) : scene(its_scene) {}
@@ -76,10 +76,10 @@ class FakeRun final : public RunControl {
   std::int64_t pause_at = -1;
   double factor = 1;
   std::int64_t now = 0;
-  std::vector<std::string> carried_out;  ///< in words
-  std::string refuses;                   ///< why all that is asked is refused
+  std::vector<std::string> carried_out;  ///< as texts
+  std::string refuses;                   ///< reason to refuse all requests; empty: none is refused
 
-  /// The present instant is complete.
+  /// Completes the present instant.
   void complete() {
     while (!asked_.empty()) {
       Asked a = std::move(asked_.front());
@@ -135,7 +135,7 @@ class FakeRun final : public RunControl {
   std::deque<Asked> asked_;
 };
 
-/// Clients that are nothing but their lines.
+/// Keeps the lines that clients get.
 class FakeOutlet final : public Outlet {
  public:
   std::map<std::uint32_t, std::string> sent;
@@ -164,7 +164,7 @@ inline std::string request(const std::string& method, const std::string& params 
          "}\n";
 }
 
-/// All of it together, with a period of 20 ms.
+/// Service, simulation and clients together, with a period of 20 ms.
 struct Dialogue {
   explicit Dialogue(std::vector<std::string_view> write = {"*", "call:*"}) : service(served(write), outlet) {
     service.scene().add_robot("rover", ObjectId{1});
@@ -173,30 +173,30 @@ struct Dialogue {
   }
   Served served(std::span<const std::string_view> write) { return {SceneNames(scene), run, Grants(write)}; }
 
-  /// The instant is over, and the next step of the controller begins.
+  /// Ends the instant, and begins the next step of the controller.
   void next_step() {
     run.complete();
     if (steps++ > 0) run.now += period;
     service.begin_step(run.now, period);
     service.answer_due();
   }
-  /// Until all that has been said is done, for lines that take a step each.
+  /// Runs until all requests are done, for lines that take a step each.
   void settle() {
     for (int i = 0; i < 10; ++i) next_step();
   }
-  /// The same while the run is paused.
+  /// Completes an instant while the run is paused.
   void attend() {
     run.complete();
     service.begin_pause();
     service.answer_due();
   }
-  /// What one line is answered with at once.
+  /// Returns the lines that a line is answered with at once.
   std::string say(std::string_view line, std::uint32_t client = 0) {
     outlet.sent[client].clear();
     service.received(client, line);
     return std::exchange(outlet.sent[client], "");
   }
-  /// What has been said since.
+  /// Returns the lines since the last call.
   std::string heard(std::uint32_t client = 0) { return std::exchange(outlet.sent[client], ""); }
 
   static constexpr std::int64_t period = 20'000'000;

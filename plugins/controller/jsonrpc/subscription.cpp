@@ -35,7 +35,7 @@ Reply Subscription::update(const SceneNames& scene, std::int64_t time, bool at_s
   is_repeated_ = timing_.is_on_change && !has_changed(scene);
   if (is_repeated_ && lost_ == 0) return nullptr;
   last_time_ = time;
-  if (!timing_.is_on_change)  // an instant later than several of them stands for all
+  if (!timing_.is_on_change)  // an instant after several due updates gives one update for all of them
     next_ = std::uint64_t(std::floor(double(time - begin_) * timing_.rate / 1e9 + 1e-9)) + 1;
   if (!has_room) {
     was_lost();

@@ -10,28 +10,28 @@
 
 namespace muro::jsonrpc {
 
-/// Properties whose values a client is sent again and again.
+/// Properties whose values a client gets repeatedly.
 class Subscription {
  public:
   struct Timing {
     bool is_on_change = false;
-    double rate = 0;          ///< Hz of simulated time, of those that are not on change
-    std::int64_t period = 0;  ///< ns, the least between two updates, of those on change
+    double rate = 0;          ///< rate if not on change, Hz of simulated time
+    std::int64_t period = 0;  ///< least time between two updates if on change, ns
     Encoding encoding = Encoding::text;
   };
-  /// `numbers`: that the properties have together.
+  /// `numbers`: total number of values in the properties.
   Subscription(std::uint32_t number, std::vector<PropertyName> properties, std::size_t numbers, Timing timing)
       : number_(number), properties_(std::move(properties)), numbers_(numbers), timing_(timing) {}
 
   std::uint32_t number() const { return number_; }
   std::size_t numbers() const { return numbers_; }
-  /// The notification for this instant, or null where none is due, or where there is no room for it: then it is lost,
-  /// and costs nothing. `at_step`: time goes on, and rates count.
+  /// Returns the notification for this instant. Returns null when none is due, or when there is no room: then the
+  /// update is lost and costs nothing. `at_step`: whether this is a step, so that rates count.
   Reply update(const SceneNames& scene, std::int64_t time, bool at_step, bool has_room);
-  /// It was not sent: the next one tells how many were lost. A change is told again as soon as there is room.
+  /// Counts a lost update; the next one reports the count. A lost change is sent when there is room again.
   void was_lost() { lost_ += is_repeated_ ? 0 : 1; }
   void was_sent() { lost_ = 0; }
-  /// Time has jumped: rates count from here.
+  /// Handles a jump of time: rates count from here.
   void begin_anew() { last_time_ = never; }
 
  private:
@@ -43,12 +43,12 @@ class Subscription {
   std::vector<PropertyName> properties_;
   std::size_t numbers_;
   Timing timing_;
-  std::int64_t begin_ = 0;          ///< ns, from which the rate counts
-  std::int64_t last_time_ = never;  ///< ns, of the last update
-  std::uint64_t next_ = 0;          ///< which update at the rate is next
+  std::int64_t begin_ = 0;          ///< begin of the rate, ns
+  std::int64_t last_time_ = never;  ///< time of the last update, ns
+  std::uint64_t next_ = 0;          ///< number of the next update at the rate
   std::uint64_t lost_ = 0;
-  bool is_repeated_ = false;  ///< the last update told of a change that had been lost before
-  std::string last_bytes_;    ///< of all properties, as they were told last
+  bool is_repeated_ = false;  ///< whether the last update reported a change that had been lost before
+  std::string last_bytes_;    ///< all properties in the last check for changes
 };
 
 }  // namespace muro::jsonrpc

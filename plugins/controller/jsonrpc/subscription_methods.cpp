@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Methods after which values keep coming.
+// Methods that start and end subscriptions.
 #include <algorithm>
 
 #include "method.hpp"
@@ -11,9 +11,9 @@ namespace muro::jsonrpc {
 namespace {
 
 constexpr std::size_t most_subscribed = 1000;             ///< properties of one subscription
-constexpr std::size_t most_subscribed_numbers = 200'000;  ///< of a client
+constexpr std::size_t most_subscribed_numbers = 200'000;  ///< for each client
 
-/// All properties that the request names, each once, and how many numbers they have.
+/// Returns all properties that the request names, each once, and their number of values.
 std::vector<PropertyName> subscribed(const Call& c, std::size_t& numbers) {
   const SceneNames& scene = c.served.scene;
   std::vector<PropertyName> all;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Updates: when they come, what they tell, and what becomes of a client that does not read them.
+// Updates: their times, their content, and clients that do not read them.
 #include <gtest/gtest.h>
 
 #include "service_testing.hpp"
@@ -14,7 +14,7 @@ Json subscribe_to(Dialogue& d, const std::string& params) {
   return reply.contains("result") ? reply["result"] : reply["error"];
 }
 
-/// The updates of this step.
+/// Returns the updates of this step.
 std::vector<Json> updates(Dialogue& d) {
   d.service.send_updates();
   std::istringstream lines(d.heard());

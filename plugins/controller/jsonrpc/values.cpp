@@ -33,7 +33,7 @@ Reply scalar_at(const ValueType& type, const std::byte* at, const Inspection& in
   });
 }
 
-/// `value` as T; what T cannot hold is an error.
+/// Returns `value` as T. Throws when T cannot hold it.
 template <class T>
 T number_as(const Json& value, const std::string& name) {
   if constexpr (std::is_floating_point_v<T>) {
@@ -65,7 +65,7 @@ bool is_told_in_base64(const LiveProperty& p, Encoding encoding) {
          type.name != "muro.ObjectId" && type.name != "muro.TextId";
 }
 
-/// RFC 4648, section 4.
+/// Encodes as in RFC 4648, section 4.
 std::string base64_of(std::string bytes) {
   namespace iterators = boost::archive::iterators;
   using Digits = iterators::base64_from_binary<iterators::transform_width<const char*, 6, 8>>;

@@ -10,7 +10,7 @@ namespace {
 using testing::Dialogue;
 using testing::request;
 
-/// The ids of the replies, in their order, and "!" behind those of errors.
+/// Returns the ids of the replies in their order, with "!" after the ids of errors.
 std::string ids_of(const std::string& lines) {
   std::istringstream text(lines);
   std::string ids;
@@ -39,7 +39,7 @@ TEST(Waiting, CountsInABatchFromTheInstantOfTheRequestBefore) {
   d.say(R"([{"jsonrpc":"2.0","id":1,"method":"set","params":["rover:flag",1]},)"
         R"({"jsonrpc":"2.0","id":2,"method":"set","params":["rover:flag",2]},)"
         R"({"jsonrpc":"2.0","id":3,"method":"wait","params":[0.02]}])");
-  d.run.now += 1;  // as hosts tell the time behind an instant
+  d.run.now += 1;  // hosts give this time after an instant
   d.run.complete();
   d.run.now -= 1;
   EXPECT_EQ(d.scene.flag, 2);

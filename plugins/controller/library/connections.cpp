@@ -15,7 +15,7 @@ namespace muro::control {
 
 namespace {
 
-/// One for each property. A port has one unit for all of them, or, as "rad, rad, m", one for each.
+/// Returns a unit for each property. A port has one unit for all properties, or one for each: "rad, rad, m".
 std::vector<std::string_view> units_of(const muro_port& port, const std::vector<PortProperty>& properties) {
   const std::string_view unit = port.unit ? port.unit : "";
   std::vector<std::string_view> each;
@@ -69,7 +69,7 @@ Connections read_connections(std::string_view parameter, std::span<const std::st
 }
 
 bool matches(std::string_view pattern, std::string_view name) {
-  std::size_t p = 0, n = 0, star = pattern.npos, from = 0;  // `from`: what the last star has taken ends here
+  std::size_t p = 0, n = 0, star = pattern.npos, from = 0;  // `from`: end of the text that the last star matches
   while (n < name.size()) {
     if (p < pattern.size() && pattern[p] == '*') {
       star = p++, from = n;
@@ -85,8 +85,8 @@ bool matches(std::string_view pattern, std::string_view name) {
   return p == pattern.size();
 }
 
-/// In the order of the scenario. First those of the robot itself, where the pattern names some of them; shadows are
-/// nobody's robots. Of outputs, first what is there already.
+/// Returns matching properties in the order of the scenario: of the item's robot if there are any, else of all objects.
+/// Leaves out shadows. Outputs prefer properties that exist already.
 std::vector<FoundProperty> PropertyFinder::find_matching(const PropertyReference& reference, bool input) const {
   std::vector<FoundProperty> found, targets;
   bool any_object = false;
@@ -129,7 +129,7 @@ std::string PropertyFinder::leader_of(const PortProperty& follower) const {
   return quote(search_.local_name(following(follower.found.object)->leader->joint_object));
 }
 
-/// The target of a joint that nobody commands, for it follows another one.
+/// Returns the target of a joint that follows another one. Nothing commands such a joint itself.
 std::optional<PortProperty> PropertyFinder::find_follower(const PropertyReference& reference) const {
   if (!reference.property.ends_with(".target")) return std::nullopt;
   ObjectId joint = no_object;
@@ -146,7 +146,7 @@ std::optional<PortProperty> PropertyFinder::find_follower(const PropertyReferenc
   return follower;
 }
 
-/// Throws Error for a follower whose leader is none of these.
+/// Finds the leader of each follower in `all`. Throws Error when it is missing.
 void PropertyFinder::find_leaders(std::vector<PortProperty>& all) const {
   for (PortProperty& p : all) {
     const auto mimic = following(p.found.object);
@@ -161,8 +161,8 @@ void PropertyFinder::find_leaders(std::vector<PortProperty>& all) const {
   }
 }
 
-/// Properties of joints are in "rad or m": the first where the joint turns, the second where it shifts. `wanted`: the
-/// unit of the port at this place.
+/// Checks the unit. Properties of joints are in "rad or m": the first for revolute joints, the second for prismatic
+/// ones. `wanted`: unit of the port at this place.
 void PropertyFinder::check_unit(const FoundProperty& p, const muro_port& port, std::string_view wanted) const {
   if (p.key->unit == wanted) return;
   std::string_view unit = p.key->unit;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the ports of control code stand for, and what is wrong with connections.
+// The properties of control code's ports, and errors in connections.
 #include "library_testing.hpp"
 
 namespace muro::control {
 namespace {
 
-/// A robot with a scanner: an object `laser` with constant readings.
+/// Robots with a scanner: an object `laser` with constant readings.
 struct Seeing : Team {
   Seeing() {
     laser = add_sensor("laser", {1, 2, 3, 4});

@@ -31,8 +31,8 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, unused);
 }
 
-/// Restores the floating-point environment at its end: a library linked with -ffast-math turns off subnormal numbers
-/// in the thread that loads it (gcc before 13, clang before 19), which would change every result.
+/// Restores the floating-point environment at its end. A library linked with -ffast-math turns off subnormal numbers in
+/// the thread that loads it (gcc before 13, clang before 19). That would change every result.
 class FloatingPointGuard {
  public:
   FloatingPointGuard() { fegetenv(&environment_); }
@@ -44,7 +44,7 @@ class FloatingPointGuard {
   fenv_t environment_{};
 };
 
-/// Throws Error when the library does not get its own functions: with them its steps would be those of a stranger.
+/// Throws Error when the library does not get its own functions: it would run functions of another library instead.
 void check_own_symbols(void* library, const std::string& path) {
   const std::vector<Interposed> lost = interposed_symbols(library);
   if (lost.empty()) return;
@@ -57,7 +57,7 @@ void check_own_symbols(void* library, const std::string& path) {
               "; link it with -Wl,-Bsymbolic, or make them static");
 }
 
-/// The loader's last message without the path, which our message names already.
+/// Returns the loader's last message without the path, which our message already contains.
 std::string loader_message(const std::string& path) {
   const char* message = dlerror();
   std::string text = message ? message : "unknown reason";
@@ -101,7 +101,7 @@ muro_controller_table load_library(const std::string& path) {
   const FloatingPointGuard guard;
   if (const std::string problem = missing_part_of_library(path); !problem.empty())
     throw Error("library " + path + " cannot be loaded: " + problem);
-  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // never closed: its table is used until the end
+  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // never closed: the table is used until the end
   if (!library) throw Error("library " + path + " cannot be loaded: " + loader_message(path));
   void* symbol = dlsym(library, "muro_controller");
   if (!symbol)

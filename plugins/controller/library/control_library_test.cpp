@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which library is loaded, what is wrong with one, and what loading leaves as it is.
+// Search and checks of a library, and effects of loading it.
 #include <cstdlib>
 #include <filesystem>
 #include <limits>

@@ -73,7 +73,7 @@ void ControlProcess::start() {
                                          : ""));
   };
   int ends[2];
-  // what does not fit into the pipe is lost: the control code never waits for somebody who reads
+  // output that does not fit into the pipe is lost: the control code never waits for a reader
   if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) fail(errno);
   output_.reset(ends[0]);
   const Descriptor theirs(ends[1]);
@@ -89,7 +89,7 @@ void ControlProcess::start() {
     throw ProcessError("cannot run in a process of its own: " + program + " is of another muro; install muro again");
 }
 
-/// Returns what became of the process when it does not answer.
+/// Receives bytes. Returns a text about the end of the process when it does not answer.
 std::string ControlProcess::receive(void* data, std::uint64_t size, Clock::time_point until) {
   const Transfer how = process_.receive(data, size, until);
   if (how == Transfer::whole) return "";
@@ -101,11 +101,11 @@ std::string ControlProcess::receive(void* data, std::uint64_t size, Clock::time_
 }
 
 std::vector<std::byte> ControlProcess::ask(std::span<const std::byte> request) {
-  // to load a library from a slow disk is no call of control code
+  // loading a library from a slow disk is not limited as a call of control code
   const double seconds = std::max(limits_.timeout, 10.0);
   const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   const MessageHeader size{request.size(), 0};
-  // where it is gone, receive() finds that
+  // receive() detects that the process has ended
   if (process_.send(&size, sizeof size, until) == Transfer::whole) process_.send(request.data(), request.size(), until);
   MessageHeader header;
   std::string problem = receive(&header, sizeof header, until);
@@ -118,7 +118,7 @@ std::vector<std::byte> ControlProcess::ask(std::span<const std::byte> request) {
 
 void ControlProcess::prepare(std::span<const std::byte> message) {
   ask(message);
-  memory_.close();  // both have mapped it
+  memory_.close();  // both processes have mapped it
 }
 
 Outcome ControlProcess::end(bool timed_out) {

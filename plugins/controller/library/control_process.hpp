@@ -11,36 +11,36 @@
 
 namespace muro::control {
 
-/// What the control code of one robot may take in a process of its own.
+/// Limits for the control code of one robot in a separate process.
 struct ProcessLimits {
-  double timeout = 5;                                ///< s of wall-clock time for a call
-  std::uint64_t memory = std::uint64_t(1024) << 20;  ///< bytes beside what the process has when the library is loaded
+  double timeout = 5;                                ///< longest call, s of wall-clock time
+  std::uint64_t memory = std::uint64_t(1024) << 20;  ///< bytes beyond what it has with the library loaded
 };
 
-/// A process cannot be started, or has ended while it was prepared.
+/// A process cannot be started, or has ended during preparation.
 class ProcessError : public Error {
  public:
   using Error::Error;
 };
 
-/// A process in which a library of control code is loaded, for one instance. It ends when this does, and when the
-/// process that has started it is gone, and all that it has started end with it.
+/// A process in which a library of control code is loaded, for one instance. It ends with this object, and when the
+/// process that has started it ends. All processes that it has started end with it.
 class ControlProcess {
  public:
-  /// Throws Error when something is wrong with the library, and ProcessError.
+  /// Starts the process. Throws Error when something is wrong with the library, and ProcessError.
   ControlProcess(const std::string& library, const ProcessLimits& limits);
 
   ControlTable& table() { return table_; }
   SharedMemory& memory() { return memory_; }
   const ProcessLimits& limits() const { return limits_; }
 
-  /// Has it do what stands in a message. Throws ProcessError.
+  /// Makes the process carry out a message. Throws ProcessError.
   void prepare(std::span<const std::byte> message);
   bool is_alive() const { return process_.is_running(); }
-  /// How it has ended, with what was on its stack. Ends it where it still runs; one that did not return says what it
-  /// was doing.
+  /// Ends the process if it still runs. Returns how it has ended, with the calls on its stack. After a time-out it is
+  /// first asked for its stack.
   Outcome end(bool timed_out);
-  /// What it has printed since the last call of this, at most 64 KiB.
+  /// Returns the output that the process has printed since the last call, at most 64 KiB.
   std::string take_output();
 
  private:

@@ -17,22 +17,22 @@ namespace {
 
 std::string text_or_none(const char* text) { return text ? text : ""; }
 
-/// The shortest text that is read as the same number.
+/// Returns the shortest text that reads back as the same number.
 std::string shortest(double number) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, number);
   return {text, end.ptr};
 }
 
-/// "speed (m/s, 0.1 to 2, default 0.7)".
+/// Returns the description of a tunable: "speed (m/s, 0.1 to 2, default 0.7)".
 std::string listed(const ControlTable::Tunable& t) {
   std::string text = t.name + " (" + (t.unit.empty() ? "" : t.unit + ", ");
   if (t.is_bounded()) text += shortest(t.min) + " to " + shortest(t.max) + ", ";
   return text + "default " + shortest(t.default_value) + ")";
 }
 
-/// What a scenario gives as "name=number", by place in `entries`; the member `initial` of an entry where it gives
-/// nothing. `parameter` is for messages; `what` of the library has these names: "tunable".
+/// Reads the "name=number" texts of a scenario, by index in `entries`; missing ones get the entry's member `initial`.
+/// `parameter`: its name for messages; `what`: kind of the entries, such as "tunable".
 template <class Entry>
 std::vector<double> read_numbers(std::string_view parameter, std::string_view what,
                                  std::span<const std::string_view> texts, const std::vector<Entry>& entries,

@@ -12,7 +12,7 @@
 
 namespace muro::control {
 
-/// What the elements of a port are.
+/// Types of the elements of a port.
 enum class PortType : std::uint8_t { number, integer, text };
 
 constexpr PortType type_of(const muro_port& port) {
@@ -21,11 +21,10 @@ constexpr PortType type_of(const muro_port& port) {
 }
 constexpr bool has_flag(const muro_port& port, std::uint32_t flag) { return (port.flags & flag) != 0; }
 
-/// A table whose fields are all there: those behind the end of an older one are zero.
+/// Returns a table with all fields; fields beyond the end of an older table are zero.
 muro_controller_table complete(const muro_controller_table& table);
 
-/// What a library says of itself, without its functions: in memory of our own, so that it may come from another
-/// process.
+/// A library's description without its functions. It is in our own memory, so it may come from another process.
 struct ControlTable {
   struct Tunable {
     std::string name, unit, doc;
@@ -45,31 +44,31 @@ struct ControlTable {
   ControlTable& operator=(const ControlTable&) = delete;
 
   std::string name, version;
-  std::vector<muro_port> inputs, outputs;  ///< their texts are in `texts`
-  std::uint64_t state_size = 0;            ///< bytes that a step leaves for the next: of the block, or of what is saved
-  bool has_instances = false;              ///< with memory of their own
-  bool can_save = false;                   ///< these instances can be saved and loaded
+  std::vector<muro_port> inputs, outputs;  ///< `texts` holds their texts
+  std::uint64_t state_size = 0;            ///< bytes that a step leaves for the next: state block, or saved data
+  bool has_instances = false;              ///< instances have their own memory
+  bool can_save = false;                   ///< such instances can be saved and loaded
   std::vector<Tunable> tunables;
   std::vector<Task> tasks;
   std::deque<std::string> texts;
 
-  /// Whether all that a step leaves for the next one is in the state.
+  /// Whether the state contains everything that a step leaves for the next one.
   bool is_restorable() const { return !has_instances || can_save; }
   void add_port(std::vector<muro_port>& to, std::string_view port, const char* unit, std::uint32_t size,
                 std::uint32_t flags);
 };
 
-/// Of a checked table, see check_table.
+/// Returns the description of a checked table; see check_table.
 ControlTable describe(const muro_controller_table& table);
 
-/// The value of each tunable: what the scenario sets, else its default. Throws Error for a name that the library does
-/// not have and for a value out of its range.
+/// Returns the value of each tunable: from the scenario, else its default. Throws Error when the library does not have
+/// the name or when the value is out of its range.
 std::vector<double> read_tunables(std::span<const std::string_view> texts, const ControlTable& table);
 
-/// Hz, of each task: what the scenario sets, else what the library asks for. Throws Error.
+/// Returns the rate of each task, Hz: from the scenario, else the library's own. Throws Error.
 std::vector<double> read_rates(std::span<const std::string_view> texts, const ControlTable& table);
 
-/// "speed=0.8 m/s, gain=2": the tunables with these values.
+/// Returns the tunables with these values as text: "speed=0.8 m/s, gain=2".
 std::string shown(const ControlTable& table, std::span<const double> values);
 
 }  // namespace muro::control

@@ -84,7 +84,7 @@ void ControlledRobot::check_tasks(double rate) const {
       throw Error(about() + "runs on demand, and its task " + quote(task) + " at a rate; give it a `rate`");
     const double wanted = settings_.task_rates[i], steps = rate / wanted;
     if (steps > 1 - 1e-9 && std::abs(steps - std::nearbyint(steps)) < 1e-5 * steps)
-      continue;  // as exact as the message
+      continue;  // same tolerance as the precision of the message
     throw Error(about() + "runs at " + number_text(rate) + " Hz, and its task " + quote(task) + " is to run at " +
                 number_text(wanted) +
                 " Hz; the rate of a task is a whole fraction of the controller's, set `rate` or `rates: [\"" + task +
@@ -138,7 +138,7 @@ Port ControlledRobot::connect_port(Connector& c, const PropertyFinder& finder, c
   return bound;
 }
 
-/// Messages that have come by radio are listed for a while: what comes and goes between two steps is never read.
+/// Notes when radio messages may be missed: each is listed for a limited time, and may vanish between two steps.
 void ControlledRobot::doubt_if_too_slow(const Connector& c, const FoundProperty& found, const muro_port& port) {
   if (found.key->name != keys::radio_received.name || !(c.rate() > 0)) return;
   const std::optional<double> keep = c.constant(found.object, keys::radio_keep);
@@ -171,8 +171,8 @@ void ControlledRobot::measure() {
   if (settings_.functions) copies_.assign(words, 0);
 }
 
-/// Inputs that are contiguous already are handed out as they are. Outputs are copies: those of a step that fails go
-/// nowhere.
+/// Returns the data of an instance in this process. Contiguous inputs are used directly. Outputs are copies, so that a
+/// failed step has no effect.
 InstanceMemory ControlledRobot::own_memory() {
   InstanceMemory m;
   std::uint64_t* next = copies_.data();
@@ -266,7 +266,7 @@ bool ControlledRobot::write_ports(const InstanceMemory& m, std::string& why_not)
   return true;
 }
 
-/// The one place where control code is called, and where it comes in how a call has ended.
+/// Calls the control code. This is the only place that does so, and that learns how a call has ended.
 Outcome ControlledRobot::outcome_of(Call& call, const Step& step) {
   if (failures_) {
     if (const Outcome* recorded = failures_->replayed(step.time, call.function)) return *recorded;
@@ -280,7 +280,7 @@ Outcome ControlledRobot::outcome_of(Call& call, const Step& step) {
   return outcome;
 }
 
-/// False when the control code has failed, and the robot lives with that.
+/// Returns false when the control code has failed and the run goes on.
 bool ControlledRobot::call(Call& call, const Step& step) {
   const Outcome outcome = outcome_of(call, step);
   if (outcome.is_fine()) return true;

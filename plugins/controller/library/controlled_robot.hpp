@@ -16,34 +16,34 @@
 
 namespace muro::control {
 
-/// What becomes of a run in which the control code of a robot fails.
+/// Effect on a run when the control code of a robot fails.
 enum class OnFailure : std::uint8_t {
-  stop,     ///< it ends
-  hold,     ///< the robot is left at rest
-  restart,  ///< the robot is at rest for a step, and its control code begins anew
+  stop,     ///< the run ends
+  hold,     ///< the robot stays at rest
+  restart,  ///< the robot rests for a step, and its control code starts anew
 };
 
-/// What all robots of one controller have in common.
+/// Data that all robots of one controller share.
 struct ControlSettings {
-  std::string path;  ///< of the library
+  std::string path;  ///< path of the library
   ControlTable table;
-  std::optional<muro_controller_table> functions;  ///< none: they run in processes of their own
+  std::optional<muro_controller_table> functions;  ///< none: the instances run in separate processes
   std::vector<std::string> arguments;
   std::vector<double> tunables, task_rates;
   OnFailure on_failure = OnFailure::stop;
-  std::uint32_t restarts = 0;  ///< how often a robot's control code may begin anew
+  std::uint32_t restarts = 0;  ///< most restarts of a robot's control code
   ProcessLimits limits;
   Host* host = nullptr;
   CallNotes* notes = nullptr;
 };
 
-/// The state of one robot: this, then the library's own. The size is a multiple of 64 bytes, so that the states of all
-/// robots, one after the other, are aligned as the C header promises.
+/// The state of one robot: this block, then the library's own state. Its size is a multiple of 64 bytes. So the states
+/// of all robots, one after the other, have the alignment that the C header promises.
 struct alignas(64) StateBlock {
   std::uint64_t created;     ///< 0 until the library's `create` has run
-  std::uint64_t saved_size;  ///< bytes, of an instance with memory of its own
-  std::uint32_t is_held;     ///< its control code has failed, and it is left at rest
-  std::uint32_t restarts;    ///< how often its control code has begun anew
+  std::uint64_t saved_size;  ///< bytes, for an instance with its own memory
+  std::uint32_t is_held;     ///< the control code has failed, and the robot stays at rest
+  std::uint32_t restarts;    ///< number of restarts of the control code
 
   void* state() { return this + 1; }
   static std::uint32_t size_for(std::size_t state_size) {
@@ -54,30 +54,30 @@ struct alignas(64) StateBlock {
 /// One robot and its instance of the control code.
 class ControlledRobot {
  public:
-  /// `item`: its place among those of the controller. [setup]
+  /// `item`: index among the items of the controller. [setup]
   ControlledRobot(const ControlSettings& settings, std::string name, std::uint32_t item, std::uint32_t count,
                   std::uint64_t random_key, StateBlock* block);
 
   const std::string& name() const { return name_; }
-  /// Where failures that are no matter of the scenario alone are recorded and replayed. [setup]
+  /// Sets the log that records and replays failures that do not depend on the scenario alone. [setup]
   void use_failure_log(std::unique_ptr<FailureLog> log) { failures_ = std::move(log); }
-  /// Takes over a process in which the library is loaded already. [setup]
+  /// Takes over a process that has already loaded the library. [setup]
   void use_process(std::unique_ptr<ControlProcess> process) { process_ = std::move(process); }
-  /// Looks for the properties of all ports and asks for them. Returns the optional inputs that it lacks. [setup]
+  /// Finds and binds the properties of all ports. Returns the optional inputs that are missing. [setup]
   std::vector<std::string> connect(Connector& connector, const RobotObjects& objects, const Connections& inputs,
                                    const Connections& outputs);
-  /// Inputs that work and hardly as meant, in words. [after connect]
+  /// Returns texts about inputs that work, but probably not as intended. [after connect]
   const std::vector<std::string>& doubts() const { return doubts_; }
-  /// Outputs that go nowhere, in words. [after connect]
+  /// Returns texts about outputs that have no effect. [after connect]
   const std::vector<std::string>& notes() const { return notes_; }
-  /// Makes a property for each output that is the library's own. [setup]
+  /// Makes a property for each output that belongs to the library itself. [setup]
   void create_own_properties(Connector& connector, ObjectId object);
 
   void start();
   void step(const Step& step);
-  /// Properties were replaced by those of a snapshot.
+  /// Called after a snapshot has replaced the properties.
   void restored();
-  /// Tells how often the control code has failed, where it has. [finish]
+  /// Reports the number of failures of the control code, if there are any. [finish]
   void report(ReportEntries& report) const;
 
  private:
@@ -90,7 +90,7 @@ class ControlledRobot {
   void check_size(const Port& port, const muro_port& wanted, bool input) const;
   InstanceMemory own_memory();
   void make_instance();
-  /// Hz, of the controller.
+  /// `rate`: of the controller, Hz.
   void check_tasks(double rate) const;
   void read_ports(InstanceMemory& memory) const;
   bool write_ports(const InstanceMemory& memory, std::string& why_not) const;
@@ -109,12 +109,12 @@ class ControlledRobot {
   StateBlock* block_;
   Ports inputs_, outputs_;
   std::vector<std::string> doubts_, notes_;
-  std::vector<std::uint64_t> copies_;  ///< of ports, of all that are not read directly; written anew in every step
+  std::vector<std::uint64_t> copies_;  ///< data of all ports that are not read directly; written again in every step
   std::unique_ptr<ControlProcess> process_;
   std::unique_ptr<ControlInstance> instance_;
-  std::unique_ptr<FailureLog> failures_;  ///< null: in the simulator's process there are none
+  std::unique_ptr<FailureLog> failures_;  ///< null: not used in the simulator's process
   std::uint64_t failure_count_ = 0;       ///< since the start, for the report
-  bool is_stale_ = false;                 ///< the instance is not that of the state
+  bool is_stale_ = false;                 ///< the instance does not match the state
 };
 
 }  // namespace muro::control

@@ -19,7 +19,7 @@ namespace {
 SharedHeader* noted = nullptr;
 std::uint64_t bound = 0;  // bytes of address space; 0: none
 
-/// As the language has it where there is no memory, but noted.
+/// Throws bad_alloc as C++ requires when there is no memory, and notes it.
 void note_short_of_memory() {
   if (noted) noted->is_short_of_memory = 1;
   throw std::bad_alloc();
@@ -40,7 +40,7 @@ void note_crash(int number, const siginfo_t& info) {
     h.is_short_of_memory = bound > 0 && own_address_space() > bound - bound / 16 ? 1 : 0;
     h.is_signal_of_others = is_of_others(info) ? 1 : 0;
   }
-  if (!as_child::has_socket()) return;  // else it may be a file of the control code
+  if (!as_child::has_socket()) return;  // else the descriptor may be a file of the control code
   std::array<void*, 48> frames{};
   backtrace_symbols_fd(frames.data(), backtrace(frames.data(), int(frames.size())), child_socket);
 }
@@ -49,7 +49,7 @@ void note_crash(int number, const siginfo_t& info) {
 
 void leave_crash_notes() {
   void* frame = nullptr;
-  backtrace(&frame, 1);  // loads what it needs, which is no matter for a handler
+  backtrace(&frame, 1);  // loads libraries that a signal handler could not load
   as_child::catch_crashes(note_crash, {SIGALRM});
 }
 

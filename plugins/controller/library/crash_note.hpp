@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// For a process of control code: what it leaves behind when it dies by a signal.
+// Notes that a process of control code leaves when a signal ends it.
 #pragma once
 
 #include "shared_layout.hpp"
 
 namespace muro::control {
 
-/// From now on a signal by which this process dies, and SIGALRM, first writes the stack of calls to the socket. [main]
+/// Makes this process write the stack of calls to the socket before a signal ends it, and on SIGALRM. [main]
 void leave_crash_notes();
 
-/// Also notes signal and address in shared memory.
+/// Also writes the signal and the address to shared memory.
 void leave_crash_notes_in(SharedHeader& header);
 
-/// Bounds the address space of this process to what it has and `bytes`. Not with a sanitizer, whose own memory is more
-/// than that.
+/// Limits the address space of this process to its present size plus `bytes`. Has no effect with a sanitizer, which
+/// needs more memory.
 void bound_memory(std::uint64_t bytes);
 
 }  // namespace muro::control

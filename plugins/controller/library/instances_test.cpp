@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Control code with memory of its own, with tunables, tasks and log lines; and such as was built with the first header.
+// Control code with its own memory, tunables, tasks and log lines; and control code built with the first header.
 #include "library_testing.hpp"
 
 namespace muro::control {
@@ -78,7 +78,7 @@ TEST_P(Isolation, APropertyOfTheLibrarysOwnHasIntegersOrText) {
 
 TEST_P(Isolation, TasksRunMoreRarelyAtTheirOwnRate) {
   Remembering s(GetParam());
-  s.run_for(1.05);  // at 10 Hz, and every fourth time the task
+  s.run_for(1.05);  // at 10 Hz; the task runs every fourth step
   EXPECT_EQ(s.count(1), 3) << "at 0, 0.4 and 0.8 s";
   EXPECT_TRUE(says(s.log, "robot `a`: `remembers` says: plan at 0.800000 every 0.400000\n"));
   Remembering faster({{"isolate", std::string(GetParam())}, {"rates", Texts{"plan=5"}}});

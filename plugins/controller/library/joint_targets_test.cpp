@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Control code commands joints: motions follow what it writes, though its ports are connected by name.
+// Control code commands joints: motions follow its outputs, although its ports are connected by name.
 #include "library_testing.hpp"
 
 namespace muro::control {
@@ -7,7 +7,7 @@ namespace {
 
 constexpr double ramp_step = 1e-3, ramp_speed = 0.5;
 
-/// An arm of 0.26 kg m^2 on a fixed base without gravity, whose joint the ramp of 0.5 rad/s commands at each step.
+/// An arm of 0.26 kg m^2 on a fixed base without gravity. A ramp of 0.5 rad/s commands its joint at each step.
 struct RampedArm : test::Scene {
   RampedArm(const std::string& motion, const std::string& library, const Texts& outputs, Settings of_motion = {}) {
     world().set(world_object, keys::gravity, Vec3(0, 0, 0));
@@ -24,7 +24,7 @@ struct RampedArm : test::Scene {
     use("controller.library", 1000, {{&arm, arm.base()}}, {{"library", folder + library}, {"outputs", outputs}});
   }
   double& joint(const Key<double>& key) { return world().value("arm/joint", key); }
-  /// After a second, when drives have settled; the last target is that of the step before the end.
+  /// Returns the lag after a second, when drives have settled. The last target is from the step before the end.
   double behind_the_target() {
     build();
     run_for(1);
@@ -37,7 +37,7 @@ const Texts position_and_velocity{"position=joint:joint.position.target", "veloc
 
 class PositionDrive : public testing::TestWithParam<std::string> {};
 
-/// stiffness error = damping speed: at critical damping the joint is 2 speed / natural_frequency behind.
+/// The balance is stiffness error = damping speed. At critical damping the lag is 2 speed / natural_frequency.
 TEST_P(PositionDrive, IsBehindARampOfPositions) {
   RampedArm s(GetParam(), "ramp.so", position_alone, {{"natural_frequency", 50.0}});
   EXPECT_NEAR(s.behind_the_target(), 2 * ramp_speed / 50, 1e-4);

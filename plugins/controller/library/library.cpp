@@ -90,7 +90,7 @@ class LibraryController final : public Algorithm {
     const Connections in = read_connections("inputs", p.texts("inputs"), table.inputs, table.name);
     const Connections out = read_connections("outputs", p.texts("outputs"), table.outputs, table.name);
     const RobotObjects objects(c);
-    std::map<std::string, std::string> missing;  // optional inputs that a robot lacks, and the first such robot
+    std::map<std::string, std::string> missing;  // optional inputs that robots lack, each with the first such robot
     for (const auto& robot : robots_)
       for (const std::string& port : robot->connect(c, objects, in, out)) missing.emplace(port, robot->name());
     for (const auto& [port, robot] : missing)
@@ -145,7 +145,7 @@ class LibraryController final : public Algorithm {
     settings_.notes = CallNotes::of(c.host());
   }
 
-  /// Into this process, or into the first of those that are to run it, which is returned.
+  /// Loads the library into this process, or into the first of the separate processes, which is returned.
   std::unique_ptr<ControlProcess> load(bool isolated) {
     if (isolated) {
       auto process = std::make_unique<ControlProcess>(settings_.path, settings_.limits);
@@ -170,7 +170,7 @@ class LibraryController final : public Algorithm {
                    ") have memory of their own, and its table has no functions `save` and `load`; a reset is possible");
   }
 
-  /// What holds for one robot holds for others: the first is told.
+  /// Logs the texts of the first robot that has any: they apply to other robots, too.
   void tell_first(Host& host, LogLevel level, const std::vector<std::string>& (ControlledRobot::*texts)() const) const {
     for (const auto& robot : robots_) {
       const std::vector<std::string>& all = (*robot.*texts)();
@@ -179,7 +179,7 @@ class LibraryController final : public Algorithm {
     }
   }
 
-  /// A name that no other controller on the same object has, whatever library it runs.
+  /// Returns a name that no other controller on the same object has, for any library.
   std::string block_name(const Connector& c, ObjectId object) const {
     const std::string stem = "controller." + settings_.table.name;
     std::string name = stem;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// controller.library in real simulations: how control code runs.
+// controller.library in real simulations: steps of control code.
 #include "library_testing.hpp"
 
 namespace muro::control {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots that the control code of test_controllers/ drives, for the tests of controller.library.
+// Robots with the control code of test_controllers/, for the tests of controller.library.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ inline RobotTree two_arms() {
   });
 }
 
-/// Two robots "a" and "b" that go as commanded, at 20 Hz.
+/// Two robots "a" and "b" that move as commanded, at 20 Hz.
 struct Team : test::Scene {
   explicit Team(std::uint64_t seed = 1) : Scene(seed) {
     const RobotTree tree = two_arms();
@@ -49,7 +49,7 @@ struct Team : test::Scene {
   const RobotView* b = nullptr;
 };
 
-/// The message with which building fails.
+/// Returns the error message of a failed build.
 template <class S>
 std::string refusal(S& s) {
   return test::complaint_of([&] { s.build(); });

@@ -11,7 +11,7 @@ namespace muro::control {
 
 namespace {
 
-/// A function has said no; the reason is in the buffer.
+/// A function of the library has refused; the reason is in the buffer.
 struct Refusal {};
 
 }  // namespace
@@ -42,7 +42,7 @@ LocalInstance::~LocalInstance() {
   try {
     destroy();
   } catch (...) {
-    // the instance is gone whatever it says
+    // the instance is gone whatever is thrown
   }
 }
 
@@ -52,7 +52,7 @@ void LocalInstance::connect_ports() {
     void* const at = memory_.inputs[i];
     inputs_.push_back(type == PortType::number ? static_cast<const double*>(at) : nullptr);
     integer_inputs_.push_back(type == PortType::integer ? static_cast<const std::int64_t*>(at) : nullptr);
-    const char* const text = memory_.input_sizes[i] > 0 ? static_cast<const char*>(at) : "";  // else it is missing
+    const char* const text = memory_.input_sizes[i] > 0 ? static_cast<const char*>(at) : "";  // "": it is missing
     text_inputs_.push_back(type == PortType::text ? text : nullptr);
   }
   for (std::uint32_t i = 0; i < table_.output_count; ++i) {
@@ -180,7 +180,7 @@ Outcome LocalInstance::call(const Call& call) {
   try {
     run(call);
   } catch (const Refusal&) {
-    error_[error_size - 1] = 0;  // whatever the library has written
+    error_[error_size - 1] = 0;  // ends the text, whatever the library has written
     outcome.ending = Ending::refused;
     outcome.reason = error_;
   } catch (const std::bad_alloc&) {

@@ -8,7 +8,7 @@ namespace muro::control {
 /// An instance in this process.
 class LocalInstance final : public ControlInstance {
  public:
-  /// `table` is complete and stays loaded.
+  /// `table` has all fields and stays loaded.
   LocalInstance(const muro_controller_table& table, const InstanceSetup& setup, InstanceMemory memory, LogSink log);
   ~LocalInstance() override;
 
@@ -26,7 +26,7 @@ class LocalInstance final : public ControlInstance {
   void save();
   void load();
   void destroy();
-  /// Notes which function runs, and checks what it has returned.
+  /// Notes the function that runs now.
   void enter(const char* function);
   void require(bool fine);
   void forget_call();
@@ -35,11 +35,11 @@ class LocalInstance final : public ControlInstance {
   InstanceSetup setup_;
   InstanceMemory memory_;
   muro_log_sink log_;
-  std::atomic<const char*>* running_ = nullptr;  ///< of the present call
-  std::span<char> running_text_;                 ///< the same
+  std::atomic<const char*>* running_ = nullptr;  ///< for the present call
+  std::span<char> running_text_;                 ///< for the present call
   std::vector<const char*> arguments_;
 
-  // by type, as the C interface has them
+  // by type, as in the C interface
   std::vector<const double*> inputs_;
   std::vector<double*> outputs_;
   std::vector<const std::int64_t*> integer_inputs_;
@@ -47,7 +47,7 @@ class LocalInstance final : public ControlInstance {
   std::vector<const char*> text_inputs_;
   std::vector<char*> text_outputs_;
 
-  void* instance_ = nullptr;  ///< with memory of its own
+  void* instance_ = nullptr;  ///< instance with its own memory
   const char* function_ = "";
   char error_[error_size];
 };

@@ -8,8 +8,8 @@
 
 namespace muro::control {
 
-/// How a call has failed, behind the name of the library: "crashed in `step`: SIGSEGV". `is_isolated`: in a process of
-/// its own, which has these limits.
+/// Returns how a call has failed, as the end of a sentence: "crashed in `step`: SIGSEGV". `is_isolated`: it ran in a
+/// separate process, with these limits.
 std::string text_of(const Outcome& outcome, bool is_isolated, const ProcessLimits& limits);
 
 }  // namespace muro::control

@@ -14,7 +14,7 @@ namespace muro::control {
 
 namespace {
 
-/// Whether `value`, rounded where T is a type of whole numbers, fits into T.
+/// Whether `value` fits into T. It is rounded first when T is an integer type.
 template <class T>
 bool fits(double value) {
   if constexpr (std::is_floating_point_v<T>) {
@@ -26,7 +26,7 @@ bool fits(double value) {
     return whole >= double(Limits::min()) && whole < std::ldexp(1.0, Limits::digits);
   }
 }
-/// An integer of 64 bits is the same bits as an unsigned one.
+/// Whether `value` fits into T. Unsigned integers of 64 bits get the same bits.
 template <class T>
 bool fits(std::int64_t value) {
   if constexpr (std::is_floating_point_v<T> || sizeof(T) == 8)
@@ -43,7 +43,7 @@ T converted(Number value) {
     return T(value);
 }
 
-/// As much of a text as there is room for.
+/// Appends as much of a text as there is room for.
 char* append(char* to, const char* end, std::string_view text) {
   const std::size_t size = std::min(text.size(), std::size_t(end - to));
   std::memcpy(to, text.data(), size);
@@ -87,7 +87,7 @@ void Port::resolve(Segment& s) const {
 
 void Port::resolve() {
   size_ = 0;
-  std::size_t length = segments_.size();  // of texts: the ends of lines, and the closing zero
+  std::size_t length = segments_.size();  // for texts: line ends and the closing zero
   for (Segment& s : segments_) {
     resolve(s);
     size_ += s.count;
@@ -102,7 +102,7 @@ void Port::resolve() {
   direct_ = is_direct ? segments_[0].data : nullptr;
 }
 
-/// Without its closing zero.
+/// Returns the length without the closing zero.
 std::size_t Port::longest_text(const Segment& s) {
   if (!s.handle) return s.text.size();
   if (!s.names) return s.count;
@@ -132,7 +132,7 @@ std::uint32_t Port::read_text(char* to) const {
   return std::uint32_t(next - to) + 1;
 }
 
-/// As many numbers as there is room for, of whole elements.
+/// Reads whole elements, as many as there is room for.
 std::uint32_t Port::read_list(const Segment& s, double* to) const {
   const auto* list = static_cast<const ListHeader*>(s.handle);
   const auto most = std::min<std::uint64_t>(list->size, size_ / s.per_element);
@@ -181,7 +181,7 @@ std::uint32_t Port::read(void* to) const {
   return size_;
 }
 
-/// Calls `write` with each place and what is to come there; stops at the first that says false.
+/// Calls `write` with each place and its new number; stops when it returns false.
 template <class T, class Write>
 bool Port::each_of(const void* from, std::uint32_t& bad, Write write) const {
   const T* next = static_cast<const T*>(from);

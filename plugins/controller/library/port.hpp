@@ -17,38 +17,38 @@ using ObjectNames = std::shared_ptr<const std::vector<std::string>>;
 /// One input or output of one robot: the scalars of one or several properties, as contiguous elements of one type.
 class Port {
  public:
-  /// `capacity`: the most elements of a list or a text; 0: as many as the properties have.
+  /// `capacity`: largest number of elements of a list or text; 0: the number that the properties have.
   explicit Port(PortType type = PortType::number, std::uint32_t capacity = 0) : type_(type), capacity_(capacity) {}
 
-  /// `handle` is what Connector::read_any or write_any returned for `property`. [setup]
+  /// `handle`: result of Connector::read_any or write_any for `property`. [setup]
   void add(const FoundProperty& property, void* handle);
-  /// The target of a joint that follows another one, whose own is what was added at place `leader`: it reads
-  /// offset + multiplier * that, and what is written to it goes nowhere. [setup]
+  /// Adds the target of a joint that follows the joint added at place `leader`. It reads offset + multiplier * (target
+  /// of the leader). Values written to it are ignored. [setup]
   void add_follower(std::size_t leader, double multiplier, double offset);
-  /// Objects, which a port of texts names. [setup]
+  /// Adds objects; a port of texts gives their names. [setup]
   void add_objects(const FoundProperty& property, void* handle, ObjectNames names);
-  /// A text that does not change. [setup]
+  /// Adds a text that does not change. [setup]
   void add_text(std::string text);
-  /// Looks up the addresses and lengths of arrays. [start]
+  /// Finds the addresses and lengths of arrays. [start]
   void resolve();
 
   PortType type() const { return type_; }
-  /// Whether it stands for nothing: an optional input that the robot lacks.
+  /// Whether the port has no property: an optional input that the robot lacks.
   bool is_missing() const { return segments_.empty(); }
-  /// Number of elements that it has room for, which is all there are but in a list; known once resolved.
+  /// Returns the number of elements that fit; only a list may have fewer. Known after resolve().
   std::uint32_t size() const { return size_; }
-  /// Whether the longest text fits into the property that it is written to.
+  /// Whether the longest text fits into the property that receives it.
   bool has_room_for_text() const { return segments_.empty() || size_ <= segments_[0].count + 1; }
   std::size_t bytes() const { return std::size_t(size_) * (type_ == PortType::text ? 1 : 8); }
-  /// The scalars themselves when they are one segment of the right type, so that nothing is copied; else null.
+  /// Returns the scalars themselves when they are one segment of the right type, so that no copy is needed; else null.
   void* direct() const { return direct_; }
 
-  /// Returns the number of elements that there are now.
+  /// Reads the elements. Returns their present number.
   std::uint32_t read(void* to) const;
-  /// Rounds to whole numbers where the property holds such. False when a number does not fit into its property, or is
-  /// not finite; `bad` is then its index, and nothing is written.
+  /// Writes the elements; rounds to whole numbers when the property has an integer type. Returns false when a number is
+  /// not finite or does not fit its property: `bad` is then its index, and nothing is written.
   bool write(const void* from, std::uint32_t& bad) const;
-  /// Sets velocities, accelerations and efforts to 0, and leaves everything else.
+  /// Sets velocities, accelerations and efforts to 0, and leaves all other values.
   void rest() const;
 
  private:
@@ -58,12 +58,12 @@ class Port {
     Scalar scalar = Scalar::f64;
     std::uint32_t per_element = 1;
     bool is_contact = false;
-    bool rests_at_zero = false;  ///< by its unit
+    bool rests_at_zero = false;  ///< decided by its unit
     void* data = nullptr;
     std::uint32_t count = 0;
     ObjectNames names{};
     std::string text{};
-    std::int32_t leader = -1;  ///< of a joint that follows another one: the segment that moves it
+    std::int32_t leader = -1;  ///< for a follower: the segment of its leader
     double multiplier = 1, offset = 0;
 
     bool is_led() const { return leader >= 0; }
@@ -84,10 +84,10 @@ class Port {
   void* direct_ = nullptr;
 };
 
-/// The numbers of one contact in a list: point and normal in world axes, depth.
+/// Number of values of one contact in a list: point and normal in world axes, depth.
 inline constexpr std::uint32_t numbers_of_contact = 7;
 
-/// Whether 0 of this unit leaves a robot where it is: of velocities, accelerations, forces and torques.
+/// Whether 0 in this unit keeps a robot at rest: velocities, accelerations, forces and torques.
 bool rests_at_zero(std::string_view unit);
 
 /// Whether a port may read such values as a list of numbers.

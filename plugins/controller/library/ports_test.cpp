@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What ports read and write in simulations: integers, texts, lists, several objects by a pattern, units of joints.
+// Reading and writing of ports in simulations: integers, texts, lists, several objects by a pattern, units of joints.
 #include <cmath>
 #include <sstream>
 
@@ -10,7 +10,7 @@
 namespace muro::control {
 namespace {
 
-/// Four robots in an order that is not that of their names, of which `bots_10` looks at what the test says.
+/// Four robots that are not in the order of their names. Control code of `bots_10` reads the inputs of the test.
 struct Looking : test::Scene {
   explicit Looking(Settings settings) {
     const RobotTree tree = two_arms();
@@ -105,7 +105,7 @@ TEST(Ports, OfTextsReadBytesTextsAndNamesOfObjects) {
                    "constants, names of objects, and bytes"));
 }
 
-/// The numbers behind the last "list" of a log.
+/// Returns the numbers after the last "list" of a log.
 std::vector<double> last_list(const std::string& log) {
   std::istringstream words(log.substr(log.rfind(", list") + 6));
   std::vector<double> numbers;
@@ -198,8 +198,8 @@ TEST(ControllerLibrary, TakesTheUnitOfTheJointThatAnEncoderLooksAt) {
                    "\"rad/s\""));
 }
 
-/// The legs of a robot whose hips turn together: the right one as the left one, the other way around, and 0.1 rad
-/// ahead. Behind them a sled.
+/// The legs of a robot with coupled hips, and a sled behind them. The right hip follows the left one with opposite sign
+/// and an offset of 0.1 rad.
 struct CoupledHips : test::Scene {
   explicit CoupledHips(Texts outputs, const std::string& library = "look.so", Texts inputs = {}) {
     robot = &add("nao", test::tree_of([](RobotBuilder& b) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The process of control code (`isolate: process`): loads one library and runs one instance of it, in turns with the
-// simulation, which starts it. It ends with that.
+// The process of control code (`isolate: process`). It loads one library and runs one instance of it, in turns with the
+// simulation that has started it. It ends with the simulation.
 #include <unistd.h>
 
 #include <cstdio>
@@ -32,7 +32,7 @@ std::vector<std::byte> next_request() {
   return bytes;
 }
 
-/// Of the one instance.
+/// Serves the calls of the instance.
 class Server {
  public:
   explicit Server(const muro_controller_table& table) : table_(table) {}
@@ -43,7 +43,7 @@ class Server {
       std::perror("the shared memory");
       _exit(1);
     }
-    close(process_memory);  // control code that writes to all descriptors changes nothing
+    close(process_memory);  // so that control code that writes to all descriptors does not change it
     memory_.keep_from_copies();
     header_ = reinterpret_cast<SharedHeader*>(memory_.data());
     leave_crash_notes_in(*header_);

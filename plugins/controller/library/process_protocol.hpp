@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the simulation and a process of control code say to each other on a socket, before they share memory: the
-// process a Greeting; then it answers two requests. The first is a path of a library, and its answer the table; the
-// second says what the instance needs to know, and its answer is empty. From then on they take turns in the shared
-// memory.
+// Messages between the simulation and a process of control code on a socket, before they share memory. The process
+// sends a Greeting, then answers two requests. The first request is the path of a library; its answer is the table. The
+// second request has the data of the instance; its answer is empty. After that they take turns in the shared memory.
 #pragma once
 
 #include <cstring>
@@ -17,12 +16,12 @@ using parser_process::Reader;
 using parser_process::Writer;
 
 inline constexpr char process_file[] = "muro_controller_host";
-/// In front of each message: its size in bytes, and whether it is a refusal, a text.
+/// Precedes each message: its size in bytes, and whether it is a refusal with a text.
 struct MessageHeader {
   std::uint64_t size = 0, is_refusal = 0;
 };
 
-/// Tells apart programs of different builds.
+/// Detects programs of different builds.
 struct Greeting {
   char magic[24];
   std::uint32_t header_size, table_size;
@@ -34,15 +33,15 @@ struct Greeting {
   }
 };
 
-/// The descriptor of the shared memory in the process. On its socket the stack of calls of a crash comes too.
+/// Descriptor of the shared memory in the process. The socket also carries the stack of calls after a crash.
 inline constexpr int process_memory = 4;
 
 /// The second request.
 struct Preparation {
   InstanceSetup setup{};
   std::vector<std::uint32_t> input_sizes{}, output_sizes{};
-  std::uint64_t memory = 0;            ///< bytes that it may take beside what it has
-  std::uint64_t spin_nanoseconds = 0;  ///< for which it looks for the next call before it sleeps
+  std::uint64_t memory = 0;            ///< bytes that it may use beyond its present memory
+  std::uint64_t spin_nanoseconds = 0;  ///< time that it polls for the next call before it sleeps
 };
 
 void write(const ControlTable& table, Writer& to);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Control code in processes of its own: what it does to the run when it fails, and that it else does the same.
+// Control code in separate processes: the effect of failures on the run, and otherwise the same results.
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 namespace muro::control {
 namespace {
 
-/// A team whose control code runs in processes of its own; robot `a` fails as `does` says.
+/// A team whose control code runs in separate processes; robot `a` fails as `does` says.
 struct Failing : Team {
   explicit Failing(const std::string& does, Settings settings = {}, Texts more = {}) {
     more.push_back("does=" + does);
@@ -24,7 +24,7 @@ struct Failing : Team {
     control(folder + "fails.so", std::move(settings));
     build();
   }
-  /// The message with which a run ends.
+  /// Returns the message with which a run ends.
   std::string run(double seconds = 1) {
     try {
       run_for(seconds);
@@ -33,7 +33,7 @@ struct Failing : Team {
     }
     return "it went well";
   }
-  /// The process that robot `a` has told of.
+  /// Returns the process that robot `a` has printed.
   pid_t told() const {
     const std::size_t at = log.find("(prints) process ");
     return at == std::string::npos ? 0 : std::atoi(log.c_str() + at + 17);

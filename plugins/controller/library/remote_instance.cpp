@@ -17,9 +17,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-/// For which a side looks for its turn before it sleeps: longer than most steps take, and less than a processor misses.
+/// Time that a side polls for its turn before it sleeps: longer than most steps, but short for a processor.
 constexpr std::chrono::nanoseconds spin = 50us;
-/// After which a side that sleeps looks whether the other one is still there.
+/// Time after which a sleeping side checks whether the other side still runs.
 constexpr std::chrono::nanoseconds nap = 5ms;
 constexpr std::uint32_t most_lines_a_call = 20, most_lines = 1000;
 
@@ -46,7 +46,7 @@ RemoteInstance::RemoteInstance(std::unique_ptr<ControlProcess> process, const Co
                        " bytes of memory to share with it are not there");
   new (process_->memory().data()) SharedHeader;
   memory_ = layout_.memory(process_->memory().data());
-  // with more processes than processors, one that looks for its turn is in the way of the one that has it
+  // with more processes than processors, a polling process would delay the one that has the turn
   const bool may_spin = setup.count < std::max(2u, std::thread::hardware_concurrency());
   Writer message;
   write(Preparation{.setup = setup,
@@ -96,7 +96,7 @@ Outcome RemoteInstance::call(const Call& call) {
   return outcome;
 }
 
-/// What it wrote last is told as it came; the stack is in the outcome.
+/// Returns the end of the process. Passes on its last output; the stack is in the outcome.
 Outcome RemoteInstance::death(bool timed_out) {
   Outcome outcome = process_->end(timed_out);
   is_alive_ = false;

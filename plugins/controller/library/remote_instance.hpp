@@ -11,10 +11,10 @@
 
 namespace muro::control {
 
-/// An instance in a process of its own: calls through shared memory.
+/// An instance in a separate process, called through shared memory.
 class RemoteInstance final : public ControlInstance {
  public:
-  /// `table` is that of the process. Throws ProcessError.
+  /// `table`: description that the process has sent. Throws ProcessError.
   RemoteInstance(std::unique_ptr<ControlProcess> process, const ControlTable& table, const InstanceSetup& setup,
                  std::span<const Port> inputs, std::span<const Port> outputs, LogSink log);
   ~RemoteInstance() override;
@@ -25,7 +25,7 @@ class RemoteInstance final : public ControlInstance {
 
  private:
   SharedHeader& header() { return *reinterpret_cast<SharedHeader*>(process_->memory().data()); }
-  /// False when the process has ended, or takes too long.
+  /// Returns false when the process has ended, or takes too long.
   bool wait(bool is_patient, bool& timed_out);
   Outcome death(bool timed_out);
   void hand_on_log();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a control library of the C++ header saves: equal states are equal byte by byte.
+// Saving of a control library with the C++ header: equal states give equal bytes.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -10,14 +10,14 @@
 
 namespace {
 
-/// Of two members with bytes between them.
+/// A state with padding between its members.
 struct Padded {
   bool first;
   double second;
 };
 static_assert(sizeof(Padded) == 16);
 
-/// What is saved of one that was made in memory full of `filling`.
+/// Returns the saved bytes of a value made in memory full of `filling`.
 std::array<std::byte, sizeof(Padded)> saved_from(int filling) {
   alignas(Padded) std::array<std::byte, sizeof(Padded)> memory;
   std::memset(memory.data(), filling, memory.size());

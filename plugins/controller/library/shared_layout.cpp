@@ -17,7 +17,7 @@ SharedLayout::SharedLayout(const ControlTable& table, std::span<const std::uint3
   state_ = add(table.state_size);
 }
 
-/// Each begins at a line of the cache, and the state as the C header promises.
+/// Adds an area. Each begins at a cache line, so the state has the alignment that the C header promises.
 std::size_t SharedLayout::add(std::size_t bytes) {
   constexpr std::size_t line = 64;
   const std::size_t place = (size_ + line - 1) / line * line;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The memory that an instance in a process of its own shares with the simulation.
+// The memory that an instance in a separate process shares with the simulation.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace muro::control {
 
-/// At the beginning of that memory. Who has the turn may touch the rest.
+/// The begin of that memory. The side that has the turn may access the rest.
 struct SharedHeader {
   Turn turn;
 
@@ -17,33 +17,33 @@ struct SharedHeader {
   Function function = Function::step;
   double time = 0, period = 0;  ///< s
   std::uint64_t seed = 0, index = 0;
-  std::uint64_t saved_size = 0;  ///< bytes, of the state of an instance with memory of its own
+  std::uint64_t saved_size = 0;  ///< bytes of the state of an instance with its own memory
 
-  // how it has ended
+  // result of the call
   Ending ending = Ending::fine;
-  char in_function[64] = "";  ///< of the library
+  char in_function[64] = "";  ///< function of the library
   char reason[1024] = "";
-  std::int32_t signal = 0;          ///< by which the process dies
-  std::uint64_t fault_address = 0;  ///< of an invalid access
+  std::int32_t signal = 0;          ///< signal that ends the process
+  std::uint64_t fault_address = 0;  ///< address of an invalid access
   std::uint32_t is_short_of_memory = 0;
   std::uint32_t is_signal_of_others = 0;
 
-  // what was logged meanwhile: a level and a text with its closing zero, one behind the other
+  // log lines of the call, one after the other: a level, and a text with its closing zero
   std::uint32_t log_size = 0;  ///< bytes
-  std::uint32_t log_lost = 0;  ///< lines for which there was no room
+  std::uint32_t log_lost = 0;  ///< number of lines for which there was no room
   char log[16 * 1024] = "";
 };
 
-/// Where things lie behind the header; both sides work it out from the same sizes.
+/// Places behind the header. Both sides compute them from the same sizes.
 class SharedLayout {
  public:
   SharedLayout(const ControlTable& table, std::span<const std::uint32_t> input_sizes,
                std::span<const std::uint32_t> output_sizes);
 
-  std::size_t size() const { return size_; }  ///< bytes, with the header
-  /// The places in such memory.
+  std::size_t size() const { return size_; }  ///< bytes, including the header
+  /// Returns the addresses in memory that starts at `begin`.
   InstanceMemory memory(std::byte* begin) const;
-  /// The numbers of elements of inputs, which change for lists.
+  /// Returns the numbers of elements of inputs. They change for lists.
   std::uint32_t* input_sizes_in(std::byte* begin) const;
 
  private:

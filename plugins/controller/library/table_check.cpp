@@ -19,7 +19,7 @@ static_assert(offsetof(muro_controller_table, tunables) == first_table_size);
 constexpr std::uint32_t all_flags =
     MURO_PORT_OPTIONAL | MURO_PORT_INTEGER | MURO_PORT_TEXT | MURO_PORT_LIST | MURO_PORT_OWN;
 
-/// The elements have names, and no two the same.
+/// Checks that the elements have names, and that all names differ.
 template <class Element>
 void check_names(const char* what, const Element* elements, std::uint32_t count, const std::string& library) {
   if (count > 0 && !elements)
@@ -96,7 +96,7 @@ void check_table(const muro_controller_table* given, const std::string& path) {
   const std::string library = "library " + path;
   if (!given) throw Error(library + ": `muro_controller` returns no table");
   const std::string advice = "; build it with the muro_controller.h of this muro";
-  if (given->abi != MURO_CONTROLLER_ABI)  // the first field: what follows depends on it
+  if (given->abi != MURO_CONTROLLER_ABI)  // the first field; all others depend on it
     throw Error(library + ": abi is " + std::to_string(given->abi) + ", this muro has " +
                 std::to_string(MURO_CONTROLLER_ABI) + advice);
   if (given->table_size != first_table_size && given->table_size != sizeof(muro_controller_table))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lets control code put a robot somewhere, as a referee does with a ball; see README.md.
+// Control code puts a robot at a place, as a referee does with a ball; see README.md.
 #include <cmath>
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each command of SCIP 2.0 does.
+// Effects of the commands of SCIP 2.0.
 #include <algorithm>
 
 #include "device.hpp"
@@ -98,8 +98,8 @@ bool Device::answer_scip2(const Call& call, const Request& request) {
   return true;
 }
 
-/// GD and its like. With the laser on there will be a scan sooner or later. A client that asks for the same twice gets
-/// a new one: drivers take a time stamp that does not change for a fault.
+/// Answers GD and similar commands. With the laser on, it waits for a scan. A repeated request of a client gets a new
+/// scan: drivers report an error when the time stamp does not change.
 bool Device::answer_scan(const Call& call, const Request& request) {
   State& s = call.state;
   if (health_of(s.fault, s.fault_scans) == Health::failed) return reply(call, "50"), true;
@@ -138,8 +138,8 @@ void Device::start_scans(const Call& call, const Request& request) {
   reply(call, "00");
 }
 
-/// RS: laser, motor speed, bit rate and timer are as at the start. RT leaves motor speed and bit rate. RB, sent twice,
-/// is switching off and on.
+/// Carries out RS, RT and RB. RS resets laser, motor speed, bit rate and timer. RT keeps motor speed and bit rate. RB,
+/// when sent twice, switches the device off and on.
 void Device::reset(const Call& call, Command command) {
   State& s = call.state;
   if (command == Command::RB && !s.is_restart_asked) {
@@ -157,7 +157,7 @@ void Device::reset(const Call& call, Command command) {
   s.bit_rate = 0;
 }
 
-/// SS, CR, HS, DB: the status.
+/// Carries out SS, CR, HS or DB; returns the status.
 std::string_view Device::change_setting(const Call& call, const Request& request) {
   State& s = call.state;
   switch (request.command) {
@@ -186,7 +186,7 @@ std::string_view Device::change_setting(const Call& call, const Request& request
   }
 }
 
-/// TM: the status, or none when it has replied itself.
+/// Carries out TM; returns the status, or none when it has replied itself.
 std::string_view Device::adjust(const Call& call, std::uint32_t code) {
   State& s = call.state;
   if (code == 0) {

@@ -10,7 +10,7 @@ namespace {
 struct Form {
   std::string_view symbol;
   Command command;
-  std::size_t digits;  ///< of all parameters together
+  std::size_t digits;  ///< total digits of all parameters
 };
 
 constexpr Form forms[] = {
@@ -56,7 +56,7 @@ bool is_permitted(char c) {
          std::string_view(" ._+@").find(c) != std::string_view::npos;
 }
 
-/// False when there is anything but digits.
+/// Returns false when there are other characters than digits.
 bool read_number(std::string_view digits, std::uint32_t& number) {
   number = 0;
   for (const char c : digits) {

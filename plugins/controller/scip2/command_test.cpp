@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every status of every command.
+// All status codes of all commands.
 #include "command.hpp"
 
 #include "scip2_testing.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 using Statuses = std::vector<std::pair<std::string, std::string>>;
 
-/// One after the other to one device.
+/// Sends the lines to one device, one after the other.
 void expect(Bench& d, const Statuses& dialogue) {
   for (const auto& [line, status] : dialogue) EXPECT_EQ(d.status_of(line), status) << line;
 }

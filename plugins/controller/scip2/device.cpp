@@ -36,7 +36,7 @@ std::uint32_t Device::state_size() const {
   return std::uint32_t(sizeof(State) + 2 * sizeof(std::uint32_t) * model_.step_count());
 }
 
-/// Lines that wait are kept.
+/// Resets the state, but keeps the waiting lines.
 void Device::switch_on(State& s, std::int64_t now) const {
   State fresh{};
   std::copy(s.pending, s.pending + s.pending_count, fresh.pending);
@@ -77,8 +77,8 @@ void Device::advance(State& s, std::int64_t now, DeviceHost& host) {
   if (is_due) answer_pending(s, now, host);
 }
 
-/// A turn ends and the next begins: its scan is sent before requests are answered, so that a client which stops the
-/// scans gets whole ones.
+/// Ends a turn and begins the next one. The scan is sent before requests are answered, so a client that stops the scans
+/// gets only complete ones.
 void Device::pass_step_zero(State& s, DeviceHost& host) {
   const std::int64_t now = s.scan_begin + s.scan_period;
   if (s.has_laser_on && s.fault != 0 && s.fault_scans < 1000) ++s.fault_scans;
@@ -125,13 +125,13 @@ void Device::send_scan(State& s, DeviceHost& host) {
     return;
   }
   const std::int64_t now = s.scan_begin + s.scan_period;
-  if (s.line_free > now) return;  // a device has no room for scans that wait
+  if (s.line_free > now) return;  // a device does not store scans for later
   m.left_out = 0;
   if (health == Health::normal && !m.is_endless) --m.remaining;
   text_.clear();
   ReplyWriter reply(text_);
   reply.plain({m.line, m.line_length});
-  const std::size_t digits = 2 + 11;  // of the number of scans, behind symbol, steps, cluster and interval
+  const std::size_t digits = 2 + 11;  // place of the number of scans, after symbol, steps, cluster and interval
   text_[digits] = char('0' + m.remaining / 10);
   text_[digits + 1] = char('0' + m.remaining % 10);
   if (health != Health::normal) {

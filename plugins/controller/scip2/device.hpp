@@ -13,50 +13,50 @@
 
 namespace muro::scip2 {
 
-/// What a device is built into.
+/// The environment of a device.
 class DeviceHost {
  public:
-  /// Bytes to a client: one reply, or one scan.
+  /// Sends bytes to a client: one reply, or one scan.
   virtual void send(std::uint32_t client, std::string_view bytes) = 0;
-  /// Fills in what each step from AMIN to AMAX sees now: mm or an error code, and the intensity.
+  /// Fills in the present reading of each step from AMIN to AMAX: mm or an error code, and the intensity.
   virtual void read_scan(std::span<std::uint32_t> distances, std::span<std::uint32_t> intensities) = 0;
-  /// A line that was handed to Device::receive got its answer.
+  /// Reports that a line from Device::receive was answered.
   virtual void answered() {}
-  /// 0: as at the start.
+  /// Sets the bit rate; 0: the rate at the start.
   virtual void set_bit_rate(std::uint32_t bits_per_second) { static_cast<void>(bits_per_second); }
 
  protected:
   ~DeviceHost() = default;
 };
 
-/// bit/s at first of a line on which bytes take no time.
+/// Initial bit rate, bit/s, of a line without transmission time.
 inline constexpr std::uint32_t usual_bit_rate = 19200;
 
-/// A scanner that speaks SCIP: from lines, time and scans to replies. It has no memory but the state that it is given.
+/// A scanner that speaks SCIP: turns lines, time and scans into replies. Its only memory is the state that it is given.
 class Device {
  public:
-  /// `is_swept`: what read_scan fills in has been taken in the course of the last turn of the mirror; else at the
-  /// instant of the call. `line_rate`: bit/s at first of a line on which bytes take their time; 0: they take none.
+  /// `is_swept`: read_scan returns readings taken during the last turn of the mirror; else at the instant of the call.
+  /// `line_rate`: initial rate of a line with transmission time, bit/s; 0: bytes take no time.
   explicit Device(Model model, bool is_swept = false, std::uint32_t line_rate = 0);
 
   const Model& model() const { return model_; }
   std::uint32_t state_size() const;  ///< bytes
 
-  /// Takes a line without its end. Empty ones are left out. It is answered by `advance`; only what finds sixteen others
-  /// waiting is refused at once (0B).
+  /// Takes a line without its end. Ignores empty lines. `advance` answers the line. Only when sixteen others wait, it
+  /// is refused at once (0B).
   void receive(State& s, std::uint32_t client, std::string_view line, DeviceHost& host);
-  /// Does all that is due up to `now`: turns of the mirror, scans, replies. Switches the device on if it is off.
+  /// Does everything due up to `now`: turns of the mirror, scans, replies. Switches the device on if it is off.
   void advance(State& s, std::int64_t now, DeviceHost& host);
-  /// A client says no more: scans that it has asked for by `M_` end. Its other lines are answered.
+  /// Handles a client that sends no more: its scans by `M_` end. Its other lines are answered.
   void forget(State& s, std::uint32_t client, DeviceHost& host) const;
   /// Whether lines of the client wait for their answers.
   static bool owes(const State& s, std::uint32_t client);
   static bool sends_scans(const State& s) { return Command(s.measurement.command) != Command::none; }
-  /// Makes all times of the state `offset` ns later.
+  /// Moves all times of the state by `offset` ns.
   void shift(State& s, std::int64_t offset) const;
 
  private:
-  /// A line and what its answer needs.
+  /// A line and the data for its answer.
   struct Call {
     State& state;
     std::int64_t now;
@@ -78,7 +78,7 @@ class Device {
   static std::uint32_t timestamp(const State& s, std::int64_t time);  ///< ms
   static void write_timestamp(ReplyWriter& reply, const State& s, std::int64_t time);
 
-  // answers.cpp: false when the answer has to wait for a scan
+  // answers.cpp; these return false when the answer must wait for a scan
   bool answer(const Call& call);
   bool answer_scip2(const Call& call, const Request& request);
   bool answer_scan(const Call& call, const Request& request);
@@ -93,7 +93,7 @@ class Device {
   std::uint32_t first_bit_rate() const { return line_rate_ == 0 ? usual_bit_rate : line_rate_; }
   std::uint32_t bit_rate_of(const State& s) const { return s.bit_rate == 0 ? first_bit_rate() : s.bit_rate; }
 
-  // scip1.cpp: of SCIP 1.1
+  // scip1.cpp, for SCIP 1.1
   bool is_scip1(const State& s, std::string_view line) const;
   bool answer_scip1(const Call& call);
   void reply_scip1(const Call& call, char status);
@@ -107,7 +107,7 @@ class Device {
   Model model_;
   bool is_swept_ = false;
   std::uint32_t line_rate_ = 0;
-  std::string text_;  ///< the reply that is being written; has room for the longest
+  std::string text_;  ///< the reply in progress; has room for the longest one
 };
 
 }  // namespace muro::scip2

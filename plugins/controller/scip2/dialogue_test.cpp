@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Byte for byte what real devices have said.
+// Exact bytes that real devices have sent.
 #include "scip2_testing.hpp"
 
 namespace muro::scip2 {

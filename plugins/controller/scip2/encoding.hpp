@@ -7,33 +7,33 @@
 
 namespace muro::scip2 {
 
-/// The check character of a line: the low six bits of the sum of its bytes, plus 0x30.
+/// Returns the check character of a line: the low six bits of the sum of its bytes, plus 0x30.
 constexpr char sum_of(std::string_view line) {
   unsigned sum = 0;
   for (const char c : line) sum += static_cast<unsigned char>(c);
   return char((sum & 0x3f) + 0x30);
 }
 
-/// Writes replies at the end of a text. Whoever owns the text has reserved room for the longest one.
+/// Appends replies to a text. The owner of the text has reserved room for the longest one.
 class ReplyWriter {
  public:
   explicit ReplyWriter(std::string& text) : text_(text) {}
 
-  /// A line without check character: an echo, or all of SCIP 1.1.
+  /// Writes a line without check character: an echo, or any line of SCIP 1.1.
   void plain(std::string_view line);
-  /// A line with its check character: a status.
+  /// Writes a line with its check character: a status.
   void summed(std::string_view line);
-  /// "KEY:value" as `KEY:value;S`: the semicolon is not part of the sum.
+  /// Writes "KEY:value" as `KEY:value;S`: the semicolon is not part of the sum.
   void keyed(std::string_view key, std::string_view value);
   /// Ends the reply: an empty line.
   void end() { text_ += '\n'; }
 
-  /// A value in `characters` groups of six bits, high first. It must fit: see greatest().
+  /// Writes a value in `characters` groups of six bits, the highest first. It must fit: see greatest().
   void value(std::uint32_t value, int characters);
-  /// The greatest number of `characters` characters.
+  /// Returns the greatest number that fits into `characters` characters.
   static constexpr std::uint32_t greatest(int characters) { return (1u << (6 * characters)) - 1; }
 
-  /// Values that follow become lines of 64 characters, each with its check character (`has_sums`) or without.
+  /// Starts a block: the next values form lines of 64 characters. `has_sums`: each line has its check character.
   void begin_block(bool has_sums = true);
   void end_block();
 
@@ -45,7 +45,7 @@ class ReplyWriter {
   bool is_block_ = false, has_sums_ = true;
 };
 
-/// Characters of a data line, without its check character.
+/// Length of a data line without its check character.
 inline constexpr std::size_t block_line_length = 64;
 
 }  // namespace muro::scip2

@@ -5,19 +5,19 @@
 
 namespace muro::scip2 {
 
-/// How a device is, while `DB` makes it act as if it were broken.
+/// States of a device while `DB` simulates a fault.
 enum class Health : std::uint8_t {
   normal,
   checking,  ///< it stops to check the fault: scans have status 21 and no data
-  resuming,  ///< the first scan that is good again has status 98 and no data
+  resuming,  ///< the first good scan has status 98 and no data
   failed,    ///< it needs a reset: status 50, BM 01
 };
 
-/// Turns of the mirror that each stage of a simulated malfunction takes.
+/// Number of mirror turns for each stage of a simulated fault.
 inline constexpr std::uint32_t fault_stage_scans = 10;
 
-/// 01: malfunction, then normal. 02: failure. 03: normal, malfunction, normal. 04: normal, malfunction, failure. 05:
-/// normal, failure. 00 and 10: normal. `scans`: turns since the command.
+/// Returns the health for a code of `DB`. 01: malfunction, then normal. 02: failure. 03: normal, malfunction, normal.
+/// 04: normal, malfunction, failure. 05: normal, failure. 00 and 10: normal. `scans`: turns since the command.
 constexpr Health health_of(std::uint8_t fault, std::uint32_t scans) {
   const std::uint32_t stage = scans / fault_stage_scans;
   const auto resumed = [&](std::uint32_t at) {
@@ -39,7 +39,7 @@ constexpr Health health_of(std::uint8_t fault, std::uint32_t scans) {
   }
 }
 
-/// Whether the stages are over, and the device is normal until the next `DB`.
+/// Whether the stages are over, so that the device is normal until the next `DB`.
 constexpr bool has_ended(std::uint8_t fault, std::uint32_t scans) {
   const std::uint32_t stages = fault == 1 ? 1 : 2;
   return fault == 0 || ((fault == 1 || fault == 3) && scans > stages * fault_stage_scans);

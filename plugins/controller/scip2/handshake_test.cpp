@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What drivers of the field send and demand, in the order in which they do: urg_library (and urg_node, urg_node2, which
-// are built on it), hokuyoaist, hokuyolx, MRPT, hokuyo_node. Each waits for a line no longer than it does in its own
-// code.
+// Messages that drivers send and expect, in their order: urg_library (also used by urg_node and urg_node2), hokuyoaist,
+// hokuyolx, MRPT, hokuyo_node. Each waits for a line at most as long as in its own code.
 #include <algorithm>
 
 #include "scip2_testing.hpp"
@@ -14,7 +13,7 @@ struct Client : Bench {
   explicit Client(Model m = urg_04lx()) : Bench(std::move(m)) { run(6); }
 
   void write(const std::string& lines) { type(lines); }
-  /// Nothing when none comes within `timeout` ms.
+  /// Returns the next line; nothing when none comes within `timeout` ms.
   std::optional<std::string> line(std::int64_t timeout) {
     for (std::int64_t waited = 0; output.find('\n') == std::string::npos; ++waited) {
       if (waited == timeout) return std::nullopt;
@@ -25,7 +24,7 @@ struct Client : Bench {
     output.erase(0, end + 1);
     return first;
   }
-  /// A whole reply, its lines behind the echo; the echo must be the command.
+  /// Returns a complete reply without the echo, which must equal the command.
   std::vector<std::string> reply_to(const std::string& command, std::int64_t timeout) {
     write(command + "\n");
     EXPECT_EQ(line(timeout).value_or("nothing"), command);
@@ -50,8 +49,8 @@ std::size_t data_of(const std::vector<std::string>& lines) {
   return characters;
 }
 
-/// urg_library: a line end alone clears the line, which stays silent; QT finds the bit rate; PP must have ten lines, VV
-/// seven, II nine (echo, status and end counted but for one). 140 ms a line until PP has told the scan period.
+/// Connects as urg_library. A line end alone clears the line without an answer; QT finds the bit rate. Without the
+/// echo, PP must have ten lines, VV seven, II nine. It waits 140 ms for a line until PP has returned the scan period.
 void connect_as_urg_library(Client& c, const std::string& window) {
   c.write("\n");
   EXPECT_EQ(c.line(140), std::nullopt);
@@ -129,8 +128,8 @@ TEST(Scip2Handshake, UrgLibraryFindsADeviceThatIsMeasuringOrAdjusting) {
   EXPECT_EQ(adjusting.reply_to("TM2", 140)[0], "00P");
 }
 
-/// hokuyoaist: asks for the version in SCIP 2.0 and, if that fails, in 1.1; then VV, PP, II line by line, of which it
-/// refuses any key that it does not know and any speed or bit rate that it cannot read.
+/// Connects as hokuyoaist. It asks for the version in SCIP 2.0 and, if that fails, in 1.1. Then it reads VV, PP, II
+/// line by line. It refuses unknown keys, and a speed or bit rate that it cannot read.
 void connect_as_hokuyoaist(Client& c) {
   c.write("VV\n");
   EXPECT_EQ(c.line(1000), "VV");
@@ -200,8 +199,8 @@ TEST(Scip2Handshake, HokuyoaistTakesNewScansAndTheTime) {
   EXPECT_EQ(c.reply_to("TM2", 1000)[0], "00P");
 }
 
-/// hokuyolx, for the UST series: asks for the state with %ST, takes the time ten times, reads PP as "key:value" with
-/// one colon, and ends a reply where bytes that it has received end with two line ends.
+/// Connects as hokuyolx, for the UST series. It reads the state by %ST and the time ten times, and PP as "key:value"
+/// with one colon. For it a reply ends when the received bytes end with two line ends.
 TEST(Scip2Handshake, HokuyolxSynchronisesActivatesAndIterates) {
   Client c(ust_10lx());
   EXPECT_EQ(c.reply_to("%ST", 5000)[1].substr(0, 3), "000");
@@ -222,7 +221,7 @@ TEST(Scip2Handshake, HokuyolxSynchronisesActivatesAndIterates) {
   }
 }
 
-/// MRPT: looks for the command as its own echo, then for the status, then for two line ends. 200 ms at a serial line.
+/// MRPT: searches the echo of its command, then the status, then two line ends. Waits 200 ms on a serial line.
 struct MrptClient : Client {
   explicit MrptClient(Model m) : Client(std::move(m)) {}
   bool response() {
@@ -260,8 +259,8 @@ TEST(Scip2Handshake, MrptTurnsOnAndReceivesScans) {
   }
 }
 
-/// hokuyo_node: TM2 and RS, whose status must be a number, then RS once more; asks for the parameters; the time of
-/// three scans in a row must not be the same.
+/// Connects as hokuyo_node. TM2 and RS must return a number as status; then it sends RS again and asks for the
+/// parameters. Three scans in a row must not have the same time.
 TEST(Scip2Handshake, HokuyoNodeResetsConfiguresAndScans) {
   Client c;
   EXPECT_EQ(c.reply_to("TM2", 1000)[0], "03S");

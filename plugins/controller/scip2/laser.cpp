@@ -27,7 +27,7 @@ ArrayIn<double> bound(Connector& c, ObjectId object, std::string_view name) {
   return p ? ArrayIn<double>(c.read_any(FoundProperty(*p))) : ArrayIn<double>();
 }
 
-/// What would fit a device exactly, for messages.
+/// Returns laser parameters that fit a device exactly, for messages.
 std::string fitting_rays(const Model& m) {
   char text[128];
   std::snprintf(text, sizeof text, "min_angle: %.6f, max_angle: %.6f, rays: %u", m.angle_of(m.first_step),
@@ -90,7 +90,7 @@ void Laser::read_grid(Connector& c, ObjectId laser, const std::string& name) {
   const std::uint32_t rows = c.constant(laser, keys::laser_rows).value_or(1);
   const double first = c.constant(laser, keys::laser_min_elevation).value_or(0);
   const double spacing = c.constant(laser, keys::laser_elevation_increment).value_or(0);
-  std::uint32_t level = 0;  // the row that is nearest to the horizontal
+  std::uint32_t level = 0;  // the row nearest to the horizontal
   for (std::uint32_t row = 1; row < rows; ++row)
     if (std::abs(first + row * spacing) < std::abs(first + level * spacing)) level = row;
   grid_.first_ray = level * grid_.columns;

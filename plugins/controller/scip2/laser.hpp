@@ -6,17 +6,17 @@
 
 namespace muro::scip2 {
 
-/// The simulated laser behind a device.
+/// The simulated laser of a device.
 class Laser {
  public:
-  /// The object that a controller is `on` when that is a laser, else the only laser of its robot. Throws muro::Error.
-  /// Once sensors have connected. [setup]
+  /// Returns the object that a controller is `on` if it is a laser, else the only laser of its robot. Throws
+  /// muro::Error. Called after sensors have connected. [setup]
   static ObjectId find(const Connector& connector, const Item& item);
 
-  /// Binds what the laser reports: the reading of the device (`ranges.measured`) where there is a sensor.error, else
-  /// the true one. Throws muro::Error when the device cannot work with it; warns where steps have no ray. [by name]
+  /// Binds the laser's reading: `ranges.measured`, which a sensor.error makes, else the true ranges. Throws muro::Error
+  /// when the device cannot use the laser; warns when steps have no ray. [by name]
   void bind(Connector& connector, ObjectId laser, const Model& model);
-  /// Whether rays are taken one after the other.
+  /// Whether the rays are measured one after the other.
   static bool is_swept(const Connector& connector, ObjectId laser);
 
   void read(const Readings& readings, std::span<std::uint32_t> distances, std::span<std::uint32_t> intensities) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Requests that nobody should send.
+// Random requests, and requests with random changes.
 #include <random>
 
 #include "scip2_testing.hpp"
@@ -73,7 +73,7 @@ class Mutator {
   std::mt19937 random_{20260101};
 };
 
-/// Whatever is sent consists of whole replies: an echo, a status, lines with their sums, an empty line.
+/// Expects complete replies only: an echo, a status, lines with their sums, an empty line.
 void expect_whole_replies(const std::string& bytes, bool may_be_scip1) {
   const auto replies = replies_in(bytes);
   ASSERT_TRUE(replies.has_value());
@@ -98,7 +98,7 @@ TEST(Scip2Requests, AHundredThousandMutatedOnesGetWholeReplies) {
       d.device.receive(d.state(), 1, line, d);
       ++lines;
       ASSERT_LE(d.state().pending_count, State::queue_size);
-      // mostly some ms, so that many lines are waiting at times
+      // time passes only after one line in three, so that sometimes many lines wait
       if (mutator.below(3) == 0) d.run(mutator.below(20));
       if (i % 100 == 99) {
         expect_whole_replies(d.output, true);
@@ -146,7 +146,7 @@ TEST(Scip2Requests, AFloodIsRefusedAtOnceAndTheFirstLinesAreAnswered) {
   EXPECT_EQ(replies[1].status, "0B");
 }
 
-/// Counts what a device allocates, so its host keeps nothing.
+/// A host that keeps nothing, so that only allocations of the device are counted.
 struct Silent final : DeviceHost {
   void send(std::uint32_t, std::string_view bytes) override { sent += bytes.size(); }
   void read_scan(std::span<std::uint32_t> d, std::span<std::uint32_t> i) override {

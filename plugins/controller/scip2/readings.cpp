@@ -11,9 +11,9 @@ namespace muro::scip2 {
 
 namespace {
 
-/// Shortest run of steps without return whose edges are marked.
+/// Shortest run of steps without return that gets marked edges.
 constexpr std::size_t shortest_marked_run = 3;
-/// Neighbours whose distances differ by more than this part of the nearer one are on two surfaces.
+/// Limit for neighbours on one surface: largest difference of their distances, as a fraction of the nearer one.
 constexpr double depth_edge = 0.2;
 
 }  // namespace
@@ -29,7 +29,7 @@ Readings::Readings(const Model& model, const RayGrid& grid) : model_(model) {
   rays_per_step_ = step_angle / increment;
   const bool is_full_turn = std::abs(increment * grid.columns - turn) < 1e-9 * turn;
   for (std::int32_t step = model.first_step; step <= model.last_step; ++step) {
-    // the turn of the device's angle that is nearest to the middle of the rays
+    // add full turns: the device's angle that is nearest to the middle of the rays
     const double middle = grid.min_angle + 0.5 * increment * (grid.columns - 1);
     double angle = model.angle_of(step);
     angle += turn * std::round((middle - angle) / turn);
@@ -70,7 +70,7 @@ std::uint32_t Readings::distance(const LaserScan& scan, std::uint32_t ray) const
   return std::uint32_t(mm);
 }
 
-/// Of the angle between the ray and the normal of the line through the neighbours on the same surface.
+/// Returns the cosine of the angle between the ray and the normal of a line through neighbours on the same surface.
 double Readings::cosine_of_incidence(std::span<const std::uint32_t> distances, std::size_t i) const {
   const double here = distances[i];
   const auto is_same_surface = [&](std::size_t k) {
@@ -87,7 +87,7 @@ double Readings::cosine_of_incidence(std::span<const std::uint32_t> distances, s
   return across / std::sqrt(along * along + across * across);
 }
 
-/// A run of steps without return ends beside steps that see something: those of its ends read 7.
+/// Marks a run of steps without return: its first and last step read 7 when a step beside it has a return.
 void Readings::mark_edges(std::span<std::uint32_t> distances) const {
   const auto is_empty = [&](std::size_t i) { return distances[i] == model_.no_return_code && rays_[i] != no_ray; };
   for (std::size_t begin = 0; begin < distances.size();) {

@@ -12,33 +12,33 @@
 
 namespace muro::scip2 {
 
-/// Where the rays of a simulated laser look.
+/// Directions of the rays of a simulated laser.
 struct RayGrid {
-  double min_angle = 0;        ///< rad, counter-clockwise; of the first ray of a row
+  double min_angle = 0;        ///< rad, counter-clockwise; for the first ray of a row
   double angle_increment = 0;  ///< rad
   std::uint32_t columns = 1;
-  std::uint32_t first_ray = 0;  ///< of the row that is looked at
+  std::uint32_t first_ray = 0;  ///< first ray of the row that is used
 };
 
-/// What a simulated laser reports at one instant, for each ray.
+/// Values that a simulated laser reports for each ray at one instant.
 struct LaserScan {
-  std::span<const double> ranges;                              ///< m, as the device measures them
+  std::span<const double> ranges;                              ///< m, as measured by the device
   std::span<const double> truth;                               ///< m, before errors; may be the same
   std::span<const double> incidence;                           ///< rad; may be empty
-  double max_range = std::numeric_limits<double>::infinity();  ///< m, of the laser: what nothing reads
+  double max_range = std::numeric_limits<double>::infinity();  ///< of the laser, m: its reading without return
 };
 
-/// From the rays of a laser to what the steps of a device read.
+/// Converts rays of a laser to readings of a device's steps.
 class Readings {
  public:
   Readings(const Model& model, const RayGrid& grid);
 
-  /// Steps within whose half spacing of rays there is no ray: they read 0.
+  /// Returns the number of steps without a ray within half a ray spacing: they read 0.
   std::uint32_t steps_without_ray() const;
-  /// Rays within a turn for one step; below one, neighbouring steps read the same ray.
+  /// Returns the number of rays for the angle of one step; below one, neighbouring steps use the same ray.
   double rays_per_step() const { return rays_per_step_; }
 
-  /// mm or an error code, and the intensity, for each step from AMIN to AMAX.
+  /// Fills in mm or an error code, and the intensity, for each step from AMIN to AMAX.
   void read(const LaserScan& scan, std::span<std::uint32_t> distances, std::span<std::uint32_t> intensities) const;
 
  private:
@@ -52,11 +52,11 @@ class Readings {
   struct HalfAngle {
     double sine = 0, cosine = 1;
   };
-  std::array<HalfAngle, 3> half_angles_;  ///< of none, one and two steps
-  std::vector<std::uint32_t> rays_;       ///< the nearest one of each step
+  std::array<HalfAngle, 3> half_angles_;  ///< for zero, one and two steps
+  std::vector<std::uint32_t> rays_;       ///< nearest ray of each step
 };
 
-/// The intensity of a reading `d` m away whose surface is met at an angle of that cosine: 10000 cos a / (1 + (d /
+/// Returns the intensity of a surface `d` m away, from the cosine of the angle of incidence a: 10000 cos a / (1 + (d /
 /// m)^2).
 std::uint32_t intensity_of(double distance, double cosine_of_incidence);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the rays of a laser to what steps read.
+// Conversion of rays of a laser to readings of steps.
 #include "readings.hpp"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ TEST(Scip2Readings, TheNearestRayCountsAndAFullTurnHasNoGap) {
     const RayGrid grid{first, 2 * pi / columns, columns, 0};
     EXPECT_EQ(Readings(m, grid).steps_without_ray(), 0u);
     std::vector<double> ranges;
-    for (std::uint32_t i = 0; i < columns; ++i)  // the direction of a ray, as a distance
+    for (std::uint32_t i = 0; i < columns; ++i)  // the range depends on the direction of the ray
       ranges.push_back(2 + std::cos(first + 2 * pi * i / columns) + 0.3 * std::sin(first + 2 * pi * i / columns));
     const Scan s = read(m, grid, {ranges, ranges, {}, 10});
     for (std::int32_t step = m.first_step; step <= m.last_step; ++step) {
@@ -115,7 +115,7 @@ TEST(Scip2Readings, NoiseHidesNoReturn) {
   EXPECT_EQ(read(m, grid_of(m), {noisy, truth, {}, 5.0}).distances[300], 0u) << "the truth is the greatest range";
 }
 
-/// A wall at x = 1 m.
+/// Measures a wall at x = 1 m.
 TEST(Scip2Readings, IntensityFallsWithDistanceAndIncidence) {
   const Model m = urg_04lx();
   std::vector<double> ranges, incidence;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scans: when they come, what they say.
+// Scans: their times and their content.
 #include "scip2_testing.hpp"
 
 namespace muro::scip2 {
@@ -27,7 +27,7 @@ TEST(Scip2Scan, ThreeScansAreCountedDownAndThenTheLaserIsOff) {
   EXPECT_EQ(d.status_of("GD0044072501"), "10");
 }
 
-/// Step D of table 2 in the protocol, "last measurement point": some drivers (Player, gearbox) always ask for all 769.
+/// Step D of table 2 in the protocol, "last measurement point". Some drivers (Player, gearbox) always request all 769.
 TEST(Scip2Scan, StepsGoToTheLastMeasurementPoint) {
   Awake d;
   d.ask("BM\n", 250);
@@ -43,7 +43,7 @@ TEST(Scip2Scan, StepsGoToTheLastMeasurementPoint) {
   EXPECT_EQ(utm.status_of("GD0000108101"), "04");
 }
 
-/// 2134 bytes, ten bits each: 185 ms at 115200 bit/s, 1.11 s at 19200.
+/// A scan has 2134 bytes of ten bits each: 185 ms at 115200 bit/s, 1.11 s at 19200 bit/s.
 TEST(Scip2Scan, ScansThatALineIsTooSlowForAreLeftOut) {
   Awake d;
   d.device = Device(urg_04lx(), false, 115200);

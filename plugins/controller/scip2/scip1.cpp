@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// SCIP 1.1, which older devices speak until `SCIP2.0`: commands of one letter, a status of one character, no sums.
+// SCIP 1.1, which older devices use until `SCIP2.0`: commands of one letter, a status of one character, no sums.
 //   V             version
 //   L0, L1        laser off, on
-//   G SSSEEECC    the latest scan: start, end, cluster; two characters a distance
-//   S BBBBBBrrrrrrr  bit rate and seven characters that stand for nothing
+//   G SSSEEECC    the latest scan: start, end, cluster; two characters for a distance
+//   S BBBBBBrrrrrrr  bit rate and seven unused characters
 #include <algorithm>
 
 #include "device.hpp"

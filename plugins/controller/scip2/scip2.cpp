@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hokuyo laser scanners that drivers outside of the simulation talk to, by SCIP 2.0; see README.md.
+// Hokuyo laser scanners for drivers outside of the simulation, by SCIP 2.0; see README.md.
 #include <array>
 #include <cstring>
 #include <memory>
@@ -46,7 +46,7 @@ constexpr stream::Limits limits{.has_late_replies = true};
 
 constexpr std::string_view state_name = "controller.scip2";
 
-/// What names of a device end with: nothing, or ".2" and so on where a laser has several.
+/// Returns the suffix for names of a device: empty, or ".2" and so on when a laser has several devices.
 std::string suffix_of(const Connector& c, ObjectId laser) {
   std::string suffix;
   const auto is_taken = [&] {
@@ -58,7 +58,7 @@ std::string suffix_of(const Connector& c, ObjectId laser) {
   return suffix;
 }
 
-/// Bit rate of a line on which bytes take their time; 0: they take none, or nobody says how much.
+/// Returns the bit rate of a line with transmission time; 0: bytes take no time, or the rate is unknown.
 std::uint32_t line_rate(const stream::Address& a) {
   return a.is_timed || a.kind == stream::Address::Kind::serial ? a.baud : 0;
 }
@@ -90,8 +90,8 @@ class Station final : private DeviceHost {
 
   void finish() { stream_.finish(); }
 
-  /// Copies the state, as it is at `time`, to where a reset does not reach. A device that nobody has spoken to since
-  /// then, and that does not measure, has but turned its mirror.
+  /// Copies the state at `time` to a place that a reset does not change. No copy is needed if the device has had no
+  /// client event and no scan since the last copy: then only its mirror has turned.
   void keep(std::int64_t time) {
     kept_time_ = time;
     if (!has_acted_ && has_kept()) return;
@@ -100,13 +100,13 @@ class Station final : private DeviceHost {
     std::memcpy(kept_.data(), static_cast<const void*>(state_), kept_.size());
   }
   bool has_kept() const { return !kept_.empty(); }
-  /// A snapshot has replaced the state: lines that are not in it need no answer any more.
+  /// Handles a snapshot that has replaced the state: lines that are not in it need no answer any more.
   void restored() {
     while (unanswered_ > state_->pending_count) answered();
     has_acted_ = true;
     stream_.set_baud(state_->bit_rate);
   }
-  /// Goes on from there at `time`.
+  /// Continues from the copy at `time`.
   void resume(std::int64_t time) {
     std::memcpy(static_cast<void*>(state_), kept_.data(), kept_.size());
     device_.shift(*state_, time - kept_time_);
@@ -148,7 +148,7 @@ class Station final : private DeviceHost {
     laser_.read(*readings_, distances, intensities);
   }
   void answered() override {
-    if (unanswered_ == 0) return;  // a restored snapshot has lines of its own
+    if (unanswered_ == 0) return;  // a restored snapshot has its own lines
     --unanswered_;
     stream_.answered();
   }
@@ -162,9 +162,9 @@ class Station final : private DeviceHost {
   Laser laser_;
   std::unique_ptr<Readings> readings_;
   State* state_ = nullptr;
-  std::uint32_t unanswered_ = 0;        ///< lines of the stream whose answers are due
-  bool has_acted_ = false;              ///< since the state was kept
-  std::vector<std::uint32_t> leaving_;  ///< clients that say no more and have not got all answers
+  std::uint32_t unanswered_ = 0;        ///< lines of the stream that need an answer
+  bool has_acted_ = false;              ///< since the state was copied
+  std::vector<std::uint32_t> leaving_;  ///< clients that send no more, but still wait for answers
   std::vector<char> kept_;
   std::int64_t kept_time_ = 0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The plugin in the whole simulator: clients on TCP, lasers of the scene.
+// The plugin in the complete simulator: clients on TCP, lasers of the scene.
 #include <fcntl.h>
 #include <stdlib.h>
 #include <termios.h>
@@ -21,7 +21,7 @@ using Settings = std::map<std::string, ParameterInput>;
 using Texts = std::vector<std::string>;
 using test::Peer;
 
-/// Robots that stand in a room of 6 m by 4 m, each with a laser of 682 rays.
+/// Robots that do not move in a room of 6 m by 4 m, each with a laser of 682 rays.
 struct Room : test::Scene {
   explicit Room(int robots = 1) {
     add_ground();
@@ -58,18 +58,18 @@ struct Room : test::Scene {
     set_log([this](LogLevel, std::string_view text) { log += std::string(text) + "\n"; });
     Scene::build();
   }
-  /// To the port that a stream has taken, as the log tells.
+  /// Connects to the port of a stream, which the log reports.
   Peer connect(const std::string& stream = "rover_0/laser") const {
     const std::uint16_t port = test::tcp_port_in(log, stream);
     EXPECT_NE(port, 0) << log;
     return Peer::tcp(port);
   }
-  /// A step of 5 ms, and time for the thread of input and output.
+  /// Runs a step of 5 ms, and waits for the I/O thread.
   void go(double seconds = 0.005) {
     run_for(seconds);
     std::this_thread::sleep_for(std::chrono::microseconds(300));
   }
-  /// What the device says to `lines`, up to `count` whole replies.
+  /// Returns the device's replies to `lines`, up to `count` complete ones.
   std::vector<Reply> ask(Peer& client, const std::string& lines, std::size_t count = 1) {
     client.heard.clear();
     EXPECT_TRUE(client.say(lines));
@@ -205,7 +205,7 @@ TEST(Scip2, ADriverForSerialPortsOpensAPseudoTerminal) {
   EXPECT_NE(s.ask(other, "II\n")[0].lines[4].find("115200"), std::string::npos) << "the device stayed on";
 }
 
-/// A terminal stands for the serial device; its master tells the rate.
+/// A terminal replaces the serial device; its master reports the rate.
 TEST(Scip2, ASerialDeviceRunsAtTheRateThatTheRepliesTell) {
   Peer line(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC));
   ::grantpt(line.fd);
@@ -301,7 +301,7 @@ TEST(Scip2, ASnapshotHoldsTheDevice) {
   EXPECT_EQ(s.ask(client, "QT\n")[0].sums_are_right, true);
 }
 
-/// As `printf 'SCIP2.0\\nVV\\n' | nc -N` does.
+/// The client acts as `printf 'SCIP2.0\\nVV\\n' | nc -N`.
 TEST(Scip2, AClientThatClosesItsSideGetsItsRepliesAndIsDisconnected) {
   Room s;
   s.use_laser();
@@ -334,7 +334,7 @@ TEST(Scip2, RepliesThatAreOnTheirWayWhenTheRunEndsComeOnce) {
   }
 }
 
-/// The client has no clock: between two of its requests no simulated time passes, however long it thinks.
+/// The client has no clock. No simulated time passes between two of its requests, even when it waits long.
 TEST(Scip2, TimeWaitsForAClientInLockstep) {
   Room s;
   s.use_laser();

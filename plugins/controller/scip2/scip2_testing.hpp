@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A device on the bench, and a reader of its replies that shares no code with the device.
+// A device for tests, and a reader of its replies that shares no code with the device.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace muro::scip2 {
 
-/// The check character as the protocol's text has it.
+/// Returns the check character as the text of the protocol defines it.
 inline char expected_sum(const std::string& line) {
   int sum = 0;
   for (const unsigned char c : line) sum = (sum + c) % 64;
@@ -27,14 +27,14 @@ inline long decoded(const std::string& characters) {
   return value;
 }
 
-/// One reply: lines up to an empty one.
+/// One reply: lines until an empty one.
 struct Reply {
   std::string echo, status;
-  std::vector<std::string> lines;  ///< behind the status, with their sums
+  std::vector<std::string> lines;  ///< lines after the status, with their sums
   bool sums_are_right = true;
 
   long timestamp() const { return lines.empty() ? -1 : decoded(lines[0].substr(0, 4)); }
-  /// Values of `characters` characters in the data lines behind the time stamp; they may straddle lines.
+  /// Returns values of `characters` characters from the data lines after the time stamp; values may cross line ends.
   std::vector<long> values(std::size_t characters) const {
     std::string data;
     for (std::size_t i = 1; i < lines.size(); ++i) data += lines[i].substr(0, lines[i].size() - 1);
@@ -46,7 +46,7 @@ struct Reply {
   }
 };
 
-/// Replies of SCIP 2.0 in `bytes`; nothing when the last one is not complete.
+/// Returns the replies of SCIP 2.0 in `bytes`; nothing when the last one is not complete.
 inline std::optional<std::vector<Reply>> replies_in(const std::string& bytes) {
   std::vector<Reply> replies;
   std::vector<std::string> lines;
@@ -70,7 +70,7 @@ inline std::optional<std::vector<Reply>> replies_in(const std::string& bytes) {
   return replies;
 }
 
-/// A device whose scan is what the test says, in steps of a millisecond, switched on at 1 ms.
+/// A device with the scan of a test, in steps of a millisecond, switched on at 1 ms.
 struct Bench : DeviceHost {
   explicit Bench(Model m = urg_04lx(), bool is_swept = false) : device(std::move(m), is_swept) {
     memory.resize(device.state_size() / 8 + 1);
@@ -93,7 +93,7 @@ struct Bench : DeviceHost {
   void answered() override { ++answers; }
   void set_bit_rate(std::uint32_t rate) override { bit_rate = rate; }
 
-  /// Lines, each with its LF, from client 1.
+  /// Sends lines, each with its LF, as client 1.
   void type(const std::string& lines, std::uint32_t client = 1) {
     for (std::size_t begin = 0; begin < lines.size();) {
       const std::size_t end = lines.find('\n', begin);
@@ -107,7 +107,7 @@ struct Bench : DeviceHost {
       device.advance(state(), milliseconds * 1'000'000, *this);
     }
   }
-  /// What the device says within `ms`, byte for byte.
+  /// Returns all bytes that the device sends within `ms`.
   std::string ask(const std::string& lines, std::int64_t ms = 100) {
     output.clear();
     type(lines);
@@ -127,12 +127,12 @@ struct Bench : DeviceHost {
   std::vector<std::uint32_t> scan, intensity;
   std::int64_t milliseconds = 0;
   std::string output, other_output;
-  std::vector<std::int64_t> times;  ///< of all that was sent, ms
+  std::vector<std::int64_t> times;  ///< times of all replies, ms
   int scans_read = 0, answers = 0;
-  std::uint32_t bit_rate = 0;  ///< as it was set; 0: as at the start
+  std::uint32_t bit_rate = 0;  ///< last rate that was set; 0: the rate at the start
 };
 
-/// A device that has been told to speak SCIP 2.0.
+/// A device after the command SCIP2.0.
 struct Awake : Bench {
   explicit Awake(Model m = urg_04lx(), bool is_swept = false) : Bench(std::move(m), is_swept) { ask("SCIP2.0\n"); }
 };

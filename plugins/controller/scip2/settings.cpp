@@ -16,7 +16,7 @@ void replace(const Parameters& p, std::string_view name, std::int32_t& entry) {
   if (p.given(name)) entry = std::int32_t(p.integer(name));
 }
 
-/// Texts go into lines of at most 64 characters, whose semicolon ends them.
+/// Replaces an entry by a parameter. Texts go into lines of at most 64 characters; a semicolon ends them.
 void replace(const Parameters& p, std::string_view name, std::string& entry) {
   const std::string_view text = p.text(name);
   if (text.empty()) return;

@@ -13,7 +13,7 @@ inline constexpr std::string_view model_choices[] = {"urg-04lx", "utm-30lx", "us
 inline constexpr std::string_view start_choices[] = {"model", "either", "scip1.1", "scip2.0"};
 inline constexpr std::string_view session_choices[] = {"power_cycle", "keep"};
 
-/// The parameters that describe the device.
+/// Parameters that describe the device.
 inline constexpr std::array device_parameters = {
     text("model", "urg-04lx", "the device; what follows replaces single entries of it").one_of(model_choices),
     integer("dmin", 20, "mm, DMIN: least distance; not given, as all of these: the model's").between(1, 262143),

@@ -13,19 +13,19 @@ namespace muro::scip2 {
 struct Pending {
   std::uint32_t client;
   std::uint8_t length;
-  std::uint8_t is_repeated;  ///< one of the same command waits already
+  std::uint8_t is_repeated;  ///< a line with the same command waits already
   std::uint8_t unused[2];
   char line[longest_line];
 
   std::string_view text() const { return {line, length}; }
 };
 
-/// Scans that a client has asked for by an `M_` command.
+/// Scans that a client has requested by an `M_` command.
 struct Measurement {
-  std::int64_t since;  ///< ns; only scans that begin from then on are sent
+  std::int64_t since;  ///< only scans that begin at this time or later are sent, ns
   std::uint32_t client;
   std::uint32_t start, end, cluster;
-  std::uint32_t interval, left_out;  ///< scans between two that are sent, and how many of them have passed
+  std::uint32_t interval, left_out;  ///< scans to skip between two, and skipped scans so far
   std::uint32_t remaining;
   std::uint8_t command;  ///< a Command; none: no scans are sent
   std::uint8_t is_endless;
@@ -34,25 +34,25 @@ struct Measurement {
   char line[longest_line];  ///< the request, which scans echo
 };
 
-/// All that a device remembers from step to step. Behind it lie the distances (mm) and the intensities of the scan in
-/// memory, std::uint32_t for each step from AMIN to AMAX. All zero: a device that has not been switched on.
-/// Times are in ns of simulated time.
+/// The complete state of a device between steps. After it follow the distances (mm) and the intensities of the scan in
+/// memory, as std::uint32_t for each step from AMIN to AMAX. All zero: a device that was not switched on. Times are in
+/// ns of simulated time.
 struct State {
   static constexpr std::uint32_t queue_size = 16;
 
   std::int64_t power_on, timer_zero;
-  std::int64_t scan_begin, scan_period;  ///< of the turn of the mirror that is under way: when it passed step 0
+  std::int64_t scan_begin, scan_period;  ///< the present turn of the mirror: when it passed step 0
   std::int64_t laser_since;
-  std::int64_t scan_time;           ///< of the scan in memory: when the mirror passed step 0
-  std::int64_t answered_scan_time;  ///< of the scan that the last `G_` was answered with
-  std::int64_t reply_index;         ///< of ReplyTime::at_interval: the last interval whose replies were made
-  std::int64_t line_free;           ///< when all that was sent has passed, on a line where bytes take their time
-  std::uint32_t bit_rate;           ///< bit/s that `SS` has set; 0: that of the line at first
+  std::int64_t scan_time;           ///< the scan in memory: when the mirror passed step 0
+  std::int64_t answered_scan_time;  ///< the scan of the last answer to `G_`
+  std::int64_t reply_index;         ///< for ReplyTime::at_interval: the last interval with replies
+  std::int64_t line_free;           ///< when all sent bytes have passed, on a line with transmission time
+  std::uint32_t bit_rate;           ///< set by `SS`, bit/s; 0: the initial rate of the line
   std::uint32_t fault_scans;        ///< turns since DB
   std::uint8_t is_on, speaks_scip2, has_laser_on, is_adjusting;
   std::uint8_t is_sensitive, percent_slower, fault, has_scan;
   std::uint8_t is_restart_asked, is_asleep;
-  std::uint8_t answered_command;  ///< a Command: which `G_` that was
+  std::uint8_t answered_command;  ///< a Command: the `G_` of that answer
   std::uint8_t unused[5];
   std::uint32_t answered_client;
   std::uint32_t pending_count;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The texts of VV, PP, II and of V in SCIP 1.1.
+// The texts of VV, PP, II, and of V in SCIP 1.1.
 #include <cmath>
 #include <cstdio>
 
@@ -10,7 +10,7 @@ namespace muro::scip2 {
 
 namespace {
 
-/// A short text without the heap.
+/// A short text without heap memory.
 struct Text {
   char characters[96];
   template <class... Values>

@@ -8,20 +8,20 @@
 
 namespace muro::sensors {
 
-/// A property that clients read: a value or an array, of numbers.
+/// A property that clients read: a numeric value or an array of such values.
 class Reading {
  public:
-  /// `property` is_readable. [setup]
+  /// `property` must be readable; see why_unreadable(). [setup]
   Reading(Connector& connector, const FoundProperty& property, std::string name);
 
-  /// "" where it is one; else why not, as the end of a sentence that begins with its name.
+  /// Returns "" when a property is readable; else the reason, as the end of a sentence that begins with its name.
   static std::string why_unreadable(const FoundProperty& property);
 
   const std::string& name() const { return name_; }
   std::string_view unit() const { return unit_; }
-  /// Of one element: "x,y,z"; "-" where it is a single number.
+  /// Returns the labels of one element: "x,y,z"; "-" when it is a single number.
   std::string labels() const;
-  std::size_t size() const;  ///< numbers; known from start() on
+  std::size_t size() const;  ///< number of values; known from start() on
   void add_to(std::vector<double>& out) const;
 
  private:
@@ -31,7 +31,7 @@ class Reading {
   std::string unit_;
   const ValueType& type_;
   bool is_array_ = false, is_sum_ = false;
-  const void* data_ = nullptr;  ///< the value, an ArrayHeader or a SumHeader
+  const void* data_ = nullptr;  ///< value, ArrayHeader or SumHeader
 };
 
 }  // namespace muro::sensors

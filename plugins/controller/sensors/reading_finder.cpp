@@ -15,7 +15,7 @@ using Found = ReadingFinder::Found;
 
 bool is_pattern(std::string_view text) { return text.find_first_of("*?") != text.npos; }
 
-/// Those that match and are read; `skipped`: one that matches and is not, with the reason.
+/// Returns readable properties that match. `skipped`: a matching property that is not read, with the reason.
 std::vector<Found> select(const std::vector<Found>& from, std::string_view pattern, std::string& skipped) {
   std::vector<Found> found;
   for (const Found& f : from) {
@@ -40,7 +40,7 @@ ReadingFinder::ReadingFinder(const Connector& connector, const Item& item, const
       own_.emplace_back(search_.local_name(object) + ":" + std::string(p.key->name), p);
 }
 
-/// But for those of shadows of other robots.
+/// Returns the properties of all objects, without those of other robots' shadows.
 std::vector<Found> ReadingFinder::all() const {
   std::vector<Found> found;
   for (std::uint32_t i = 0; i < connector_.object_count(); ++i) {

@@ -10,7 +10,7 @@
 
 namespace muro::sensors {
 
-/// Finds the properties that the members of groups name. When all have connected. [setup]
+/// Finds the properties that the members of groups name. Used after all algorithms have connected. [setup]
 class ReadingFinder {
  public:
   /// A property with its name for clients.
@@ -18,10 +18,10 @@ class ReadingFinder {
 
   ReadingFinder(const Connector& connector, const Item& item, const RobotObjects& of_robots);
 
-  /// "object:property" with * and ? on the robot itself, without its name ("laser:ranges"), or, where the robot has
-  /// none such, on any object by its full name ("rover_1/base_link:pose"). "property" alone is that of any object of
-  /// the robot, and where the object has a property.measured (the reading of the device), that one. In the order of
-  /// objects. Throws Error.
+  /// Returns the properties that `member` names, in the order of objects. "object:property", with * and ?, means
+  /// objects of the robot by their local names ("laser:ranges"). If none matches, it means any object by its full name
+  /// ("rover_1/base_link:pose"). "property" alone means that property of all objects of the robot. An object that has
+  /// property.measured (the reading of the device) gives this one instead. Throws Error.
   std::vector<Found> find(std::string_view member) const;
 
  private:
@@ -30,7 +30,7 @@ class ReadingFinder {
 
   const Connector& connector_;
   PropertySearch search_;
-  std::vector<Found> own_;  ///< of the robot, by local names
+  std::vector<Found> own_;  ///< properties of the robot, by local names
 };
 
 }  // namespace muro::sensors

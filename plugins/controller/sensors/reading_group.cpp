@@ -21,7 +21,7 @@ std::size_t ReadingGroup::size() const {
   return size;
 }
 
-/// How many properties, then of each: name, unit, how many numbers, labels of those of an element.
+/// Writes the number of properties. Then for each: name, unit, number of values, labels of the values of an element.
 void ReadingGroup::describe(wire::Quantity, std::string& out) const {
   out.append(1, ' ').append(std::to_string(readings_.size()));
   for (const Reading& r : readings_) {

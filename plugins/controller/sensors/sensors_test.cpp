@@ -19,7 +19,7 @@ using wire::numbers_of;
 using wire::Settings;
 using wire::Texts;
 
-/// Balls that motion.point moves, each with a laser of 5 rays that looks at a wall 3 m ahead of the first.
+/// Balls that motion.point moves. Each has a laser of 5 rays that points at a wall, 3 m ahead of the first ball.
 struct Scouts : wire::Served {
   explicit Scouts(int count = 1) {
     const Shape wall = Shape::box({0.2, 20, 4});

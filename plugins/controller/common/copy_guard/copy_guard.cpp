@@ -11,10 +11,10 @@ namespace muro {
 
 namespace {
 
-thread_local int calls = 0;  ///< of loaded code, in which this thread is
+thread_local int calls = 0;  ///< number of calls of loaded code that this thread is in
 bool is_copy = false;
 
-/// In the new process, which has but the thread that called fork().
+/// Runs in the new process, which has only the thread that called fork().
 void note_copy() { is_copy = calls > 0; }
 
 void write_to_standard_error(std::string_view text) {

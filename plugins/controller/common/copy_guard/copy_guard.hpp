@@ -3,8 +3,8 @@
 
 namespace muro {
 
-/// Stands around a call of code that was loaded: control code, an FMU. When that calls fork(), a copy of the whole
-/// process comes back from the call, too: with a simulator, or its end of a call from one, that is there once already.
+/// Guards a call of loaded code, such as control code or an FMU. When that code calls fork(), the call also returns in
+/// a copy of the whole process. The copy would hold a second simulator, or a second end of a call from a simulator.
 class CopyGuard {
  public:
   CopyGuard();
@@ -12,7 +12,7 @@ class CopyGuard {
   CopyGuard(const CopyGuard&) = delete;
   CopyGuard& operator=(const CopyGuard&) = delete;
 
-  /// In a copy: writes a line to standard error, and ends it. `function`: which has come back.
+  /// Ends the process if it is a copy, with a line to standard error. `function`: name of the call that has returned.
   static void end_copy(const char* function);
 };
 

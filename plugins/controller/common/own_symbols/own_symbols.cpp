@@ -13,7 +13,7 @@ namespace muro {
 
 namespace {
 
-/// What a relocation puts into its place; `none` for those that are no plain address of a symbol.
+/// The value that a relocation writes; `none` for relocations that do not write the address of a symbol.
 enum class Puts { none, address, address_plus_addend };
 
 Puts puts(std::uint64_t type) {
@@ -28,7 +28,7 @@ Puts puts(std::uint64_t type) {
   return Puts::none;
 }
 
-/// The word at `place`, which may be in tables that AddressSanitizer forbids to all but itself.
+/// Reads the word at `place`. The place may be in tables that AddressSanitizer forbids all other code to read.
 [[gnu::no_sanitize_address]] std::uintptr_t word_at(std::uintptr_t place) {
   return *reinterpret_cast<const std::uintptr_t*>(place);
 }
@@ -45,7 +45,7 @@ class Dynamic {
     if (value(DT_PLTREL) == DT_RELA) relocations_[1] = relocations(DT_JMPREL, DT_PLTRELSZ);
   }
 
-  /// Calls `see(name, address)` for each reference to a function or variable that the library defines for all.
+  /// Calls `see(name, address)` for each reference to a global function or variable that the library defines itself.
   template <class See>
   void for_own_references(See see) const {
     if (!symbols_ || !names_) return;
@@ -55,7 +55,7 @@ class Dynamic {
         const std::uint64_t number = ELF64_R_SYM(r.r_info);
         if (puts_what == Puts::none || number == 0) continue;
         const ElfW(Sym)& symbol = symbols_[number];
-        // weak ones are parts of C++ that libraries are meant to have in common
+        // weak symbols are parts of C++ that libraries are meant to share
         if (symbol.st_shndx == SHN_UNDEF || ELF64_ST_BIND(symbol.st_info) != STB_GLOBAL) continue;
         const std::uintptr_t found = word_at(base_ + r.r_offset);
         const std::uintptr_t addend = puts_what == Puts::address ? 0 : std::uintptr_t(r.r_addend);
@@ -64,13 +64,13 @@ class Dynamic {
   }
 
  private:
-  /// 0 where there is no such entry.
+  /// Returns 0 when there is no such entry.
   std::uint64_t value(std::int64_t tag) const {
     for (const ElfW(Dyn)* d = entries_; d->d_tag != DT_NULL; ++d)
       if (d->d_tag == tag) return d->d_un.d_val;
     return 0;
   }
-  /// Null where there is no such entry. glibc has made most of these numbers addresses already.
+  /// Returns null when there is no such entry. glibc has already turned most of these numbers into addresses.
   const char* address(std::int64_t tag) const {
     const std::uintptr_t place = value(tag);
     if (place == 0) return nullptr;

@@ -6,15 +6,15 @@
 
 namespace muro {
 
-/// A function or variable of a library that the library itself does not get when it asks for it.
+/// A function or variable that a library defines, but does not get when it asks for it.
 struct Interposed {
   std::string name;  ///< "step"
-  std::string by;    ///< path of the library that has one of the same name and comes first: "/lib/.../libc.so.6"
+  std::string by;    ///< path of the library that comes first and has a symbol of this name: "/lib/.../libc.so.6"
 };
 
-/// The dynamic linker binds a reference to a symbol of the library's own to the first one of that name, and the program
-/// and what it is linked with come before a library that is loaded later (System V ABI, "Shared Object Dependencies").
-/// These are the symbols of `library`, a handle of dlopen, where that was another one.
+/// Returns the interposed symbols of `library`, a handle of dlopen. The dynamic linker binds a reference to the first
+/// symbol of its name, also when the library defines that symbol itself. The program and the libraries it is linked
+/// with come before a library that is loaded later (System V ABI, "Shared Object Dependencies").
 std::vector<Interposed> interposed_symbols(void* library);
 
 }  // namespace muro

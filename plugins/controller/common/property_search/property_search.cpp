@@ -14,7 +14,7 @@ namespace muro {
 
 namespace {
 
-/// "; there are ..." of what was named wrongly.
+/// Returns the end of a message about a wrong name: "; there are ...".
 std::string known_properties(std::string_view wrong, std::vector<std::string> names, std::string_view verb) {
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());

@@ -19,7 +19,7 @@ struct Sum {
   long a = 0, b = 0, sum = 0;
 };
 
-/// Serves until `a` is negative.
+/// Adds numbers until `a` is negative.
 void add(Sum& s, std::chrono::nanoseconds spin) {
   Patience patience(spin);
   for (;;) {

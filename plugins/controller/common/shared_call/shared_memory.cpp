@@ -46,7 +46,7 @@ void SharedMemory::keep_from_copies() {
   static_cast<void>(registered);
 }
 
-/// In the copy, between fork() and its return: nothing but calls of the system.
+/// Runs in the copy, between fork() and its return: may make only system calls.
 void SharedMemory::become_private() {
   void* const copy = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (copy == MAP_FAILED) _exit(127);

@@ -7,7 +7,7 @@
 
 namespace muro {
 
-/// Memory that several processes have: a file without a name (memfd), mapped.
+/// Memory that several processes share: a file without a name (memfd), mapped.
 class SharedMemory {
  public:
   SharedMemory() = default;
@@ -15,17 +15,17 @@ class SharedMemory {
   SharedMemory(const SharedMemory&) = delete;
   SharedMemory& operator=(const SharedMemory&) = delete;
 
-  /// Makes the file, without bytes. False, with errno, when the system has none.
+  /// Makes an empty file. Returns false and sets errno when the system has none.
   bool create(const char* name);
-  /// Gives the file its size, and maps it; the bytes are zero. False, with errno, when it cannot be had.
+  /// Sets the size of the file and maps it; all bytes are zero. Returns false and sets errno when that fails.
   bool resize(std::size_t size);
-  /// Maps the file that another process has made and sized.
+  /// Maps the file that another process has made and resized.
   bool open(int descriptor, std::size_t size);
 
-  /// A copy of this process, made by fork(), gets a copy of the memory for itself. For one memory of a process.
+  /// A copy of this process, made by fork(), gets a private copy of the memory. Works for one memory of a process.
   void keep_from_copies();
 
-  /// The file, not the memory, which stays until the end.
+  /// Closes the file. The memory stays mapped.
   void close() { file_.reset(); }
 
   int descriptor() const { return file_.get(); }

@@ -13,7 +13,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A moment in which the processor leaves room for its other thread.
+/// Pauses for a moment, so that the other hardware thread of the core can run.
 void relax() {
 #if defined(__x86_64__)
   __builtin_ia32_pause();
@@ -33,7 +33,7 @@ void Turn::pass_to(Side side) noexcept {
 }
 
 bool Turn::look_for(Side mine, std::chrono::nanoseconds spin) const noexcept {
-  constexpr int looks_between = 32;  // a look at the clock takes as long as some of these
+  constexpr int looks_between = 32;  // reading the clock takes as long as some of these checks
   if (is_of(mine)) return true;
   for (const Clock::time_point end = Clock::now() + spin; spin.count() > 0 && Clock::now() < end;)
     for (int i = 0; i < looks_between; ++i) {

@@ -7,20 +7,20 @@
 
 namespace muro {
 
-/// For how long a side looks for its turn before it sleeps. To look pays where the other side runs on another processor
-/// and is soon done. Where it did not, the side sleeps at once, and tries again now and then: else, where both share a
-/// processor, each would keep the other one from it.
+/// Decides how long a side polls for its turn before it sleeps. Polling pays when the other side runs on another
+/// processor and finishes soon. When polling did not help, the side sleeps at once in the next waits and polls again
+/// only sometimes. Otherwise two sides on one processor would block each other.
 class Patience {
  public:
-  /// 0: never.
+  /// `most`: longest time of polling; 0: never polls.
   explicit Patience(std::chrono::nanoseconds most) : most_(most), now_(most) {}
 
-  /// For the next wait.
+  /// Returns the time of polling for the next wait.
   std::chrono::nanoseconds spin() {
     if (now_.count() == 0 && ++waits_ % waits_between == 0) return most_;
     return now_;
   }
-  /// How that wait ended: whether it was one's turn before one slept.
+  /// Takes the result of that wait: whether the turn came before the side slept.
   void learn(bool was_worth_it) { now_ = was_worth_it ? most_ : std::chrono::nanoseconds(0); }
 
  private:
@@ -29,24 +29,24 @@ class Patience {
   std::uint32_t waits_ = 0;
 };
 
-/// Two processes, or threads, that take turns: it lies in memory that both have. Who has the turn may touch the rest of
-/// that memory; what it has written there is seen by the other one when it has the turn.
+/// A turn that two processes or threads pass to each other. It lies in memory that both share. The side that has the
+/// turn may access the rest of that memory. The other side sees these writes when it gets the turn.
 ///
-/// A side that waits looks again and again for a while, which takes less than a microsecond where the other side runs
-/// meanwhile, and then sleeps until it is woken (futex), which takes some microseconds.
+/// A side that waits polls for some time: when the other side runs meanwhile, this takes less than a microsecond. Then
+/// it sleeps until it is woken (futex), which takes some microseconds.
 class Turn {
  public:
   enum class Side : std::uint32_t { caller, callee };
 
-  /// It is the caller's turn at the start.
+  /// At the start the caller has the turn.
   Turn() = default;
   Turn(const Turn&) = delete;
   Turn& operator=(const Turn&) = delete;
 
-  /// Ends one's own turn.
+  /// Ends the turn of the calling side.
   void pass_to(Side side) noexcept;
-  /// Waits until it is the turn of `mine`: looks for some time, then sleeps for `sleep` at most. False when it is not
-  /// yet.
+  /// Waits for the turn of `mine`: polls for some time, then sleeps for at most `sleep`. Returns false when it is not
+  /// the turn of `mine` yet.
   bool wait_for(Side mine, Patience& patience, std::chrono::nanoseconds sleep) noexcept;
 
  private:
@@ -56,7 +56,7 @@ class Turn {
   static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "a futex is a word");
 
   alignas(64) std::atomic<std::uint32_t> turn_{0};
-  std::atomic<std::uint32_t> is_asleep_[2]{};  ///< by side
+  std::atomic<std::uint32_t> is_asleep_[2]{};  ///< one for each side
 };
 
 }  // namespace muro

@@ -10,10 +10,10 @@
 
 namespace muro::stream {
 
-/// Accepts clients on a socket that listens. [I/O thread]
+/// Accepts clients on a listening socket. [I/O thread]
 class Acceptor {
  public:
-  /// Takes the descriptor. `prepare`: sets the options of a client's socket.
+  /// Takes ownership of the descriptor. `prepare`: sets the options of a client's socket.
   Acceptor(const EndpointSetup& setup, int descriptor, void (*prepare)(int))
       : setup_(setup), socket_(setup.io.context(), descriptor), timer_(setup.io.context()), prepare_(prepare) {}
 
@@ -40,7 +40,7 @@ class Acceptor {
     }
     accept();
   }
-  /// Clients wait in the queue of the system meanwhile.
+  /// Waits before it accepts again. Meanwhile clients wait in the queue of the system.
   void wait(int error) {
     if (!is_told_) setup_.log(LogLevel::warning, "cannot take a client: " + system_reason(error));
     is_told_ = true;

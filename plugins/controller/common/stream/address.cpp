@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t longest_socket_path = 107;  // sockaddr_un
 
-/// The number at the end of a name: bots_7: 7.
+/// Returns the number at the end of a name: bots_7: 7.
 std::string number_at_end(std::string_view name) {
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
   if (digits == name.size()) return "0";
@@ -58,7 +58,7 @@ std::optional<T> number(std::string_view text) {
   return value;
 }
 
-/// A number, or a sum of several.
+/// Reads a port: a number, or a sum of several.
 std::uint16_t port_of(std::string_view key, std::string_view value, std::string_view text) {
   std::uint64_t sum = 0;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -76,7 +76,7 @@ std::uint16_t port_of(std::string_view key, std::string_view value, std::string_
   return std::uint16_t(sum);
 }
 
-/// "PORT", "HOST:PORT" or "[IPV6]:PORT".
+/// Reads "PORT", "HOST:PORT" or "[IPV6]:PORT".
 void read_host_and_port(std::string_view key, std::string_view text, bool needs_host, Address& out) {
   const std::size_t colon = text.rfind(':');
   if (colon == text.npos) {
@@ -122,7 +122,7 @@ T within(std::string_view key, std::string_view value, T low, T high, const char
   return *found;
 }
 
-/// What the texts say, key by key.
+/// A key and its value, from one text.
 struct Entry {
   std::string_view key, value;
 };
@@ -147,10 +147,10 @@ std::vector<Entry> split(std::span<const std::string_view> texts) {
   return entries;
 }
 
-/// The key that says where the stream is. False: it says something else.
+/// Reads the key that names the place of the stream. Returns false when the entry has another key.
 bool read_place(const Entry& entry, const Item& item, Address& out) {
   const std::string_view key = entry.key;
-  constexpr std::string_view kinds[] = {"tcp", "connect", "unix", "pty", "serial"};  // as Address::Kind
+  constexpr std::string_view kinds[] = {"tcp", "connect", "unix", "pty", "serial"};  // order as in Address::Kind
   const auto found = std::find(std::begin(kinds), std::end(kinds), key);
   if (found == std::end(kinds)) return false;
   const std::string value = expand(key, entry.value, item);
@@ -189,7 +189,7 @@ void read_option(const Entry& entry, const Item& item, Address& out) {
   }
 }
 
-/// What does not fit together.
+/// Throws when entries do not fit together.
 void check(const std::vector<Entry>& entries, const Address& a) {
   const auto value = [&](std::string_view key) -> std::optional<std::string_view> {
     for (const Entry& e : entries)

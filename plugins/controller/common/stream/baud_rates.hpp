@@ -9,7 +9,7 @@
 
 namespace muro::stream {
 
-/// A bit rate as serial devices take it.
+/// A bit rate that serial devices support.
 struct BaudRate {
   std::uint32_t baud;  ///< bit/s
   speed_t code;
@@ -28,7 +28,7 @@ inline std::optional<speed_t> speed_code(std::uint32_t baud) {
   return std::nullopt;
 }
 
-/// bit/s of a code; of one that is not above, the slowest.
+/// Returns the bit rate of a code, bit/s; the slowest rate when the code is not in the list.
 inline std::uint32_t rate_of(speed_t code) {
   for (const BaudRate& rate : baud_rates)
     if (rate.code == code) return rate.baud;

@@ -16,7 +16,7 @@ namespace muro::stream {
 
 namespace {
 
-/// FNV-1a.
+/// Returns the FNV-1a hash.
 std::uint64_t hash_of(const std::string& text) {
   std::uint64_t hash = 14695981039346656037u;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;

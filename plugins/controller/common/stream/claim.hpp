@@ -5,15 +5,15 @@
 
 namespace muro::stream {
 
-/// Keeps a path for one stream of one process: another one of this machine cannot claim it until this one is gone,
-/// however it ends. So what is found at a path that is claimed now was left behind.
+/// Keeps a path for one stream of one process. No other stream on this machine can claim it. The claim ends with its
+/// process, also when that crashes. So a file found at a path that is claimed now is a remainder of an earlier process.
 class Claim {
  public:
   Claim() = default;
   Claim(const Claim&) = delete;
   Claim& operator=(const Claim&) = delete;
   ~Claim();
-  /// False: another has it. Throws muro::Error where the system fails.
+  /// Claims the path. Returns false when another stream has it. Throws muro::Error when the system fails.
   bool take(const std::string& path);
 
  private:

@@ -10,8 +10,8 @@ namespace muro::stream {
 
 namespace {
 
-constexpr std::size_t chunk = 16384;  // bytes that are read at once: then it is another's turn
-constexpr auto time_to_take_the_rest = std::chrono::seconds(5);  // after that a client that reads nothing is cut off
+constexpr std::size_t chunk = 16384;  // most bytes that one read takes; then other clients get their turn
+constexpr auto time_to_take_the_rest = std::chrono::seconds(5);  // then a client that does not read is cut off
 
 }  // namespace
 
@@ -84,7 +84,7 @@ void Connection::take_encrypted(std::size_t bytes) {
   if (reads_on) read();
 }
 
-/// Hands on what has come and can be read. False: not to be read on.
+/// Decrypts and passes on the received bytes. Returns false when reading must stop.
 bool Connection::decrypt() {
   for (;;) {
     make_room();
@@ -119,7 +119,7 @@ void Connection::take_end() {
   if (is_output_ended_) fail();
 }
 
-/// Hands on all that is complete. False: not to be read on.
+/// Passes on all complete messages. Returns false when reading must stop.
 bool Connection::take_messages() {
   while (begin_ < end_) {
     if (skipped_ != 0 && input_[begin_] == skipped_) ++begin_;
@@ -137,7 +137,7 @@ bool Connection::take_messages() {
       return false;
     }
     std::string_view message(input_.get() + begin_, size);
-    if (framing_.size_of_first == line_size) {  // the same bytes however they arrive: CR LF in one piece, or in two
+    if (framing_.size_of_first == line_size) {  // same bytes whether CR LF arrives in one piece or in two
       if (message.ends_with("\r\n"))
         message.remove_suffix(1);
       else
@@ -150,7 +150,7 @@ bool Connection::take_messages() {
   return true;
 }
 
-/// Its size; 0: it is not complete.
+/// Returns the size of the next message; 0 when it is not complete.
 std::size_t Connection::next_message() {
   const std::string_view bytes(input_.get() + begin_, end_ - begin_);
   if (!framing_.size_of_first) return std::min(bytes.size(), framing_.longest);
@@ -170,7 +170,7 @@ void Connection::write() {
       return;
     }
   }
-  is_writing_ = true;  // written in the handler, so that close() knows what has gone out
+  is_writing_ = true;  // the handler writes, so that close() knows how much has gone out
   stream_.async_wait(asio::posix::stream_descriptor::wait_write,
                      [self = shared_from_this()](boost::system::error_code error) {
                        self->is_writing_ = false;
@@ -184,7 +184,7 @@ void Connection::write() {
                      });
 }
 
-/// What is to be sent next, where all is sent. False: nothing.
+/// Gets the next bytes to send, after all earlier ones are sent. Returns false when there are none.
 bool Connection::take_output() {
   output_.clear();
   output_sent_ = 0;
@@ -194,7 +194,7 @@ bool Connection::take_output() {
   return !output_.empty();
 }
 
-/// Where there is TLS, what was encrypted counts as sent when all of it is.
+/// Counts sent bytes. With TLS, the plain bytes count as sent when all their encrypted bytes are.
 void Connection::count_sent(std::size_t bytes) {
   output_sent_ += bytes;
   if (!tls_) {
@@ -205,15 +205,15 @@ void Connection::count_sent(std::size_t bytes) {
   }
 }
 
-/// It says nothing any more, or is not listened to. Answers to what it has said may follow.
+/// Ends the input: the client sends nothing more, or its input is ignored. Answers to earlier messages may follow.
 void Connection::end_input() {
   if (is_silent_) return;
   is_silent_ = true;
   exchange_.disconnected(*client_);
 }
 
-/// All is sent. What the client goes on saying is read until it closes, too: closed with bytes that nobody has read,
-/// TCP would take back what is on its way to the client.
+/// Ends the output after all is sent. Further input is still read until the client closes, too. If the socket were
+/// closed with unread bytes, TCP would discard the bytes on their way to the client.
 void Connection::end_output() {
   if (is_output_ended_) return;
   if (tls_ && tls_->end()) {
@@ -229,7 +229,7 @@ void Connection::end_output() {
   read();
 }
 
-/// An error: a reset; of a terminal also its end.
+/// Handles an error: a reset, or the end of a terminal.
 void Connection::break_off() {
   if (!is_silent_ && (kind_ == Descriptor::socket || begin_ < end_)) exchange_.count_lost();
   fail();
@@ -253,7 +253,7 @@ void Connection::close() {
   release();
 }
 
-/// What goes into the buffers of the system without waiting.
+/// Writes the bytes that fit into the buffers of the system, without waiting.
 void Connection::send_now() {
   const char* const data = output_.data() + output_sent_;
   const std::size_t size = output_.size() - output_sent_;

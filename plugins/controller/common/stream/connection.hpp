@@ -12,25 +12,25 @@
 
 namespace muro::stream {
 
-/// One client's bytes, in and out. [I/O thread]
+/// Input and output of one client. [I/O thread]
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   enum class Descriptor : std::uint8_t { socket, terminal };
-  /// Takes the descriptor. `closed`: called once, when it has been closed, unless by close(). `tls`: null where nothing
-  /// is encrypted.
+  /// Takes ownership of the descriptor. `closed`: called once after the descriptor was closed, but not by close().
+  /// `tls`: null when the connection is not encrypted.
   Connection(IoThread& io, Exchange& exchange, const Framing& framing, std::shared_ptr<Client> client, int descriptor,
              Descriptor kind, std::unique_ptr<TlsSession> tls, std::function<void(Connection&)> closed);
 
   void start() { read(); }
-  /// After a signal of the steps: sends what waits, reads on where there was no room.
+  /// Handles a signal of the steps: sends waiting bytes, and reads on if it had stopped for lack of room.
   void attend();
-  /// Sends what can be sent at once and closes it.
+  /// Sends the bytes that can be sent at once, then closes the descriptor.
   void close();
-  /// It says nothing any more; what is left to be sent to it may still be on its way.
+  /// Whether the client sends nothing any more. Bytes for the client may still be on their way.
   bool is_silent() const { return is_silent_; }
-  /// Bytes for it have been taken from the steps and have not been written yet.
+  /// Whether bytes were taken from the steps and are not written yet.
   bool has_output() const { return is_writing_; }
-  /// It was disconnected by this side.
+  /// Whether this side has disconnected the client.
   bool was_ended() const { return is_ending_; }
 
  private:
@@ -59,24 +59,24 @@ class Connection : public std::enable_shared_from_this<Connection> {
   asio::steady_timer deadline_;
   const Descriptor kind_;
   const std::unique_ptr<TlsSession> tls_;
-  const std::unique_ptr<char[]> encrypted_;  ///< as it comes, where there is TLS
+  const std::unique_ptr<char[]> encrypted_;  ///< received bytes before decryption, when there is TLS
   std::function<void(Connection&)> closed_;
 
   const std::size_t capacity_;
   const std::unique_ptr<char[]> input_;
-  std::size_t begin_ = 0, end_ = 0;  ///< of what has come and is in no message yet
-  char skipped_ = 0;                 ///< the other half of a line's end, which may follow: CR or LF
+  std::size_t begin_ = 0, end_ = 0;  ///< received bytes that are in no message yet
+  char skipped_ = 0;                 ///< second half of a line's end, which may follow: CR or LF
   bool is_first_ = true;
   bool is_reading_ = false;
-  bool is_full_ = false;    ///< waits for room
-  bool has_ended_ = false;  ///< the client has closed its side
+  bool is_full_ = false;    ///< whether it waits for room
+  bool has_ended_ = false;  ///< whether the client has closed its side
   bool is_silent_ = false;
-  bool is_ending_ = false;  ///< the steps are done with it
+  bool is_ending_ = false;  ///< whether the steps have ended the connection
   bool is_closed_ = false;
 
   std::string output_;
   std::size_t output_sent_ = 0;
-  std::string plain_;  ///< what `output_` is the encryption of
+  std::string plain_;  ///< the bytes that `output_` holds encrypted
   bool is_writing_ = false;
   bool is_output_ended_ = false;
 };

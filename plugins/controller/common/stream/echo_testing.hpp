@@ -25,7 +25,7 @@ inline Address address_of(const Connector& connector, const std::vector<std::str
   return read_address(connector, item, texts);
 }
 
-/// What a Stream hands out, with memory of its own.
+/// An event of a Stream, with its own copy of the bytes.
 struct Heard {
   Event::Kind kind;
   std::uint32_t client;
@@ -34,7 +34,7 @@ struct Heard {
   bool operator==(const Heard&) const = default;
 };
 
-/// A simulation of a stream alone, with steps of a millisecond.
+/// A simulation that has only a stream, with steps of a millisecond.
 struct Echo {
   explicit Echo(const std::vector<std::string_view>& texts, Framing framing = {line_size}, Limits limits = {})
       : stream(connector, "rover_3/echo", address_of(connector, texts), framing, limits) {
@@ -56,7 +56,7 @@ struct Echo {
     }
     time += 1'000'000;
   }
-  /// Steps until `done`. False: it was not within 5 s.
+  /// Steps until `done` returns true. Returns false when this takes longer than 5 s.
   bool run_until(const std::function<bool()>& done) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
     while (!done()) {

@@ -26,7 +26,7 @@ bool Connections::add(int descriptor, Connection::Descriptor kind) {
   return true;
 }
 
-/// Those who have left but are still owed an answer are kept while there are few of them.
+/// Closes the oldest silent connection when there are too many. A silent client may still be owed an answer.
 void Connections::make_place() {
   if (all_.size() < 2 * std::size_t(most_) + 8) return;
   const auto oldest = std::find_if(all_.begin(), all_.end(), [](const auto& c) { return c->is_silent(); });
@@ -45,7 +45,7 @@ bool Connections::has_output() const {
 }
 
 void Connections::on_signal() {
-  const auto all = all_;  // some may go
+  const auto all = all_;  // copy, because some connections may be removed
   for (const auto& connection : all) connection->attend();
 }
 

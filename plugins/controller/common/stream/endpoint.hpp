@@ -8,15 +8,15 @@
 
 namespace muro::stream {
 
-/// The clients of one stream that are there now. [I/O thread]
+/// The connections of one stream that are open now. [I/O thread]
 class Connections final : public IoThread::Source {
  public:
-  /// `tls`: null where nothing is encrypted.
+  /// `tls`: null when nothing is encrypted.
   Connections(IoThread& io, Exchange& exchange, const Framing& framing, std::uint32_t most,
               std::unique_ptr<TlsServer> tls)
       : io_(io), exchange_(exchange), framing_(framing), most_(most), tls_(std::move(tls)) {}
 
-  /// Serves the client behind a descriptor, or refuses it and closes that.
+  /// Serves the client of a descriptor. Returns false when it refuses the client and closes the descriptor.
   bool add(int descriptor, Connection::Descriptor kind);
   void close();
   void on_signal() override;
@@ -24,7 +24,7 @@ class Connections final : public IoThread::Source {
   /// Whether bytes for a client wait in this program.
   bool has_output() const;
 
-  std::function<void(bool by_us)> on_closed;  ///< a client has gone, or was disconnected here
+  std::function<void(bool by_us)> on_closed;  ///< a client has gone, or this side has disconnected it
 
  private:
   void make_place();
@@ -37,27 +37,27 @@ class Connections final : public IoThread::Source {
   std::vector<std::shared_ptr<Connection>> all_;
 };
 
-/// What endpoints are made of.
+/// Everything that endpoints need to be made.
 struct EndpointSetup {
   IoThread& io;
   Connections& connections;
   Address& address;
-  const std::string& name;  ///< of the stream
+  const std::string& name;  ///< name of the stream
   Host& host;
 
   void log(LogLevel level, const std::string& text) const { host.log(level, "stream " + name + ": " + text); }
 };
 
-/// Where clients come from: a server, a terminal, a device.
+/// A source of clients: a server, a terminal, a device.
 class Endpoint {
  public:
   virtual ~Endpoint() = default;
-  /// Throws muro::Error. Not in the I/O thread; nothing happens before start().
+  /// Opens the endpoint; nothing happens before start(). Throws muro::Error. Not called in the I/O thread.
   virtual void open() = 0;
   virtual void start() = 0;  ///< [I/O thread]
-  virtual void close() = 0;  ///< no new clients [I/O thread]
-  /// bit/s of a line that has them, once what was sent before has gone out; 0: as it was opened. Allocates nothing.
-  /// [step]
+  virtual void close() = 0;  ///< accepts no new clients [I/O thread]
+  /// Sets the bit rate (bit/s) of a line that has one, after the earlier bytes have gone out. 0: the rate at opening.
+  /// Allocates nothing. [step]
   virtual void set_baud(std::uint32_t) {}
 };
 

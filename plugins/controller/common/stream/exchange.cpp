@@ -56,7 +56,7 @@ void Exchange::message(Client& client, std::string_view bytes) {
   client.bytes_waiting += bytes.size();
   ++statistics_.messages;
   has_arrived_.store(true, std::memory_order_release);
-  // Under the mutex: a step cannot answer the message before it counts as arrived.
+  // Called under the mutex: a step cannot answer the message before it counts as arrived.
   if (lockstep_) lockstep_->message_arrived();
 }
 

@@ -16,7 +16,7 @@ struct Inbox {
   struct Entry {
     Event::Kind kind;
     std::uint32_t client;
-    std::size_t begin, size;  ///< in `bytes`
+    std::size_t begin, size;  ///< place in `bytes`
   };
   std::vector<Entry> entries;
   std::string bytes;
@@ -29,7 +29,7 @@ struct Inbox {
     entries.clear();
     bytes.clear();
   }
-  /// Forgets the first `count`.
+  /// Removes the first `count` entries.
   void forget(std::size_t count) {
     const std::size_t begin = count < entries.size() ? entries[count].begin : bytes.size();
     entries.erase(entries.begin(), entries.begin() + std::ptrdiff_t(count));
@@ -38,34 +38,34 @@ struct Inbox {
   }
 };
 
-/// A client, as the exchange knows it. Guarded by its mutex.
+/// The exchange's record of a client. Guarded by the mutex of the exchange.
 struct Client {
   explicit Client(std::uint32_t its_number) : number(its_number) {}
   const std::uint32_t number;
-  std::string outgoing;              ///< waits for the I/O thread
-  std::size_t sending = 0;           ///< bytes that it has taken and not sent yet
-  bool is_ending = false;            ///< to be disconnected once all is sent
-  bool is_held = false;              ///< the steps want to hear no more of it for now
-  std::uint64_t generation = 0;      ///< of what waits
-  std::size_t messages_waiting = 0;  ///< for a step
+  std::string outgoing;              ///< bytes that wait for the I/O thread
+  std::size_t sending = 0;           ///< bytes that the I/O thread has taken and not sent yet
+  bool is_ending = false;            ///< it is to be disconnected when all is sent
+  bool is_held = false;              ///< the steps want no more messages of it for now
+  std::uint64_t generation = 0;      ///< collect count to which the waiting counts below belong
+  std::size_t messages_waiting = 0;  ///< messages that wait for a step
   std::size_t bytes_waiting = 0;
 };
 
-/// What the steps and the I/O thread of one stream hand to each other.
+/// Data that the steps and the I/O thread of one stream pass to each other.
 class Exchange {
  public:
   Exchange(const Limits& limits, std::uint32_t clients, LockstepStream* lockstep);
 
   // --- I/O thread
-  /// A new client with the next number. Null: too much waits for the steps already.
+  /// Adds a client with the next number. Returns null when too much already waits for the steps.
   std::shared_ptr<Client> connected();
-  /// Whether a message of the client may be added; otherwise the steps signal when it may.
+  /// Whether a message of the client may be added. If not, the steps signal when there is room.
   bool has_room(Client& client);
   void message(Client& client, std::string_view bytes);
   void disconnected(const Client& client);
-  /// Nobody sends to it any more.
+  /// Removes the client: nothing can be sent to it any more.
   void remove(const Client& client);
-  /// What is to be sent, in exchange for an empty buffer. False: nothing.
+  /// Moves the bytes to send into `buffer`, which must be empty. Returns false when there are none.
   bool take_output(Client& client, std::string& buffer);
   void sent(Client& client, std::size_t bytes);
   bool is_ending(const Client& client);
@@ -75,20 +75,20 @@ class Exchange {
   void count_lost();
 
   // --- steps
-  /// Whether something has arrived since the last collect: one load.
+  /// Whether something has arrived since the last collect. Costs one atomic load.
   bool has_arrived() const { return has_arrived_.load(std::memory_order_acquire); }
-  /// Moves it behind what is in `inbox`. True: a client waits for room that there is now.
+  /// Appends the arrived events to `inbox`. Returns true when a client waits for room: there is room now.
   bool collect(Inbox& inbox);
   enum class Sent : std::uint8_t { nothing, dropped, queued };
-  /// Queues all of it or nothing, where not more than `most` bytes wait then.
+  /// Queues all bytes, or none when more than `most` bytes would wait then.
   Sent send(std::uint32_t client, std::string_view bytes) { return send(client, bytes, limits_.output_bytes); }
   Sent send(std::uint32_t client, std::string_view bytes, std::size_t most);
-  /// Bytes for the client that have not been sent.
+  /// Number of bytes for the client that are not sent yet.
   std::size_t waiting(std::uint32_t client) const;
   Sent send_to_all(std::string_view bytes);
-  /// No more is read from the client, until it is told otherwise. True: it waits to be read from.
+  /// Stops reading from the client while `held` is true. Returns true when this call ends a hold.
   bool hold(std::uint32_t client, bool held);
-  /// Disconnects the client once all is sent. False: there is none.
+  /// Disconnects the client when all is sent. Returns false when there is no such client.
   bool end(std::uint32_t client);
   void count_dropped();
   Statistics statistics() const;
@@ -102,8 +102,8 @@ class Exchange {
   LockstepStream* const lockstep_;
   mutable std::mutex mutex_;
   Inbox arrived_;
-  std::uint64_t generation_ = 1;  ///< of `arrived_`: counts collects
-  bool is_waited_for_ = false;    ///< a client waits for room
+  std::uint64_t generation_ = 1;  ///< counts the collects of `arrived_`
+  bool is_waited_for_ = false;    ///< whether a client waits for room
   std::vector<std::shared_ptr<Client>> clients_;
   std::uint32_t next_number_ = 0;
   Statistics statistics_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a stream asks of its host, for tests.
+// The parts of a host that a stream uses, for tests.
 #pragma once
 
 #include <deque>
@@ -55,7 +55,7 @@ class FakeInputs final : public ExternalInputs, public InputChannel {
   std::size_t next_ = 0;
 };
 
-/// A report of what algorithms have told.
+/// A report that keeps the numbers of the algorithms.
 class FakeReport final : public ReportEntries {
  public:
   std::vector<std::pair<std::string, std::uint64_t>> numbers;
@@ -90,7 +90,7 @@ class FakeHost final : public Host {
   std::vector<std::string> warnings_;
 };
 
-/// Connects an algorithm that serves robots of some names, and has nothing else.
+/// Connects an algorithm that serves robots of given names. The scene has nothing else.
 class FakeConnector final : public Connector {
  public:
   explicit FakeConnector(const std::vector<std::string>& robots = {"rover_3"}) : names_(robots) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is said where two streams want one place, as the copies of a robot do by mistake, or where a file stands there.
+// Messages for two streams that need one place, as the copies of a robot do by mistake, or for a file at that place.
 #pragma once
 
 #include <cstdint>

@@ -24,8 +24,8 @@ int new_event() {
   return fd;
 }
 
-/// Blocks the signals that are not faults of the thread itself: SIGINT and the like go to the main thread, and SIGPIPE,
-/// of a client that has left, to nobody. A new thread inherits this.
+/// Blocks all signals that are not faults of the thread itself. So SIGINT and similar signals go to the main thread,
+/// and SIGPIPE, caused by a client that has left, goes to no thread. A new thread inherits this.
 class BlockedSignals {
  public:
   BlockedSignals() {
@@ -42,7 +42,7 @@ class BlockedSignals {
   sigset_t before_;
 };
 
-/// Until the context is stopped. A handler that runs out of memory loses its client, not the others.
+/// Runs until the context is stopped. A handler that runs out of memory loses its client, not the others.
 void run(asio::io_context& context) {
   const auto work = asio::make_work_guard(context);
   while (!context.stopped()) {
@@ -92,7 +92,7 @@ void IoThread::signal(Source& source) noexcept {
     if (signalled_.size() > 1) return;
   }
   const std::uint64_t one = 1;
-  static_cast<void>(!::write(wake_.native_handle(), &one, sizeof one));  // fails only where it is awake anyway
+  static_cast<void>(!::write(wake_.native_handle(), &one, sizeof one));  // fails only when the thread is awake already
 }
 
 void IoThread::wait_for_signals() {
@@ -115,7 +115,7 @@ void IoThread::take_signals() {
     try {
       source->on_signal();
     } catch (const std::exception&) {
-      continue;  // out of memory; the others go on
+      continue;  // out of memory; the other sources continue
     }
   }
   taken_.clear();

@@ -16,10 +16,10 @@ namespace muro::stream {
 
 namespace asio = boost::asio;
 
-/// The thread in which all streams of a plugin read and write. It lives as long as one of them is open.
+/// The thread in which all streams of a plugin read and write. It lives while one of them is open.
 class IoThread {
  public:
-  /// Something that the thread looks after when a step asks for it.
+  /// An object that the thread attends to after a step has signalled it.
   class Source {
    public:
     virtual ~Source() = default;
@@ -38,10 +38,10 @@ class IoThread {
 
   asio::io_context& context() { return context_; }
 
-  /// The thread calls source.on_signal() soon, once for all signals until then. Allocates nothing. [any thread]
+  /// Makes the thread call source.on_signal() soon, once for all signals until then. Allocates nothing. [any thread]
   void signal(Source& source) noexcept;
 
-  /// Runs `work` in the thread, after all signals so far, and waits for its end. Not from the thread itself.
+  /// Runs `work` in the thread, after all earlier signals, and waits for its end. Not called in the thread itself.
   template <class Work>
   void call(Work work) {
     std::packaged_task<void()> task([&] {

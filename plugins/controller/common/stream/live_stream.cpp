@@ -27,7 +27,7 @@ LiveStream::~LiveStream() {
     endpoint_->close();
     connections_.close();
   });
-  io_->call([] {});  // what was under way has ended, too
+  io_->call([] {});  // waits until the running work has ended, too
 }
 
 bool LiveStream::begin(std::int64_t time, bool waits) {
@@ -49,7 +49,7 @@ bool LiveStream::begin(std::int64_t time, bool waits) {
   return is_in_time;
 }
 
-/// Takes what has come, behind what has not been handed out yet.
+/// Appends received events to those that were not handed out yet.
 void LiveStream::collect() {
   if (!exchange_.has_arrived()) return;
   const std::size_t left = inbox_.entries.size() - next_;
@@ -66,7 +66,7 @@ bool LiveStream::has_message() const {
                      [](const Inbox::Entry& e) { return e.kind == Event::Kind::message; });
 }
 
-/// Puts on the line what has come. In lockstep that is the message that is next: the others come after its answer.
+/// Puts received events on the line. In lockstep this is the next message only: the others follow after its answer.
 void LiveStream::set_due() {
   input_.advance(time_);
   while (due_.size() < inbox_.entries.size()) {
@@ -88,7 +88,7 @@ const Event* LiveStream::next() {
   if (entry.kind == Event::Kind::disconnected) {
     if (!limits_.has_late_replies) disconnect(entry.client);
   } else if (entry.kind == Event::Kind::connected) {
-    if (is_ending_ && exchange_.end(listener_)) io_->signal(connections_);  // the one before
+    if (is_ending_ && exchange_.end(listener_)) io_->signal(connections_);  // the earlier client
     output_.clear();
     listener_ = entry.client;
     is_ending_ = false;

@@ -8,19 +8,19 @@
 
 namespace muro::stream {
 
-/// A stream that is open, as the steps see it.
+/// The steps' view of an open stream.
 class LiveStream {
  public:
-  /// Opens it. `lockstep` may be null. The address gets the port that it has. Throws muro::Error.
+  /// Opens the stream and writes the actual port to the address. `lockstep` may be null. Throws muro::Error.
   LiveStream(const std::string& name, Address& address, const Framing& framing, const Limits& limits, Host& host,
              LockstepStream* lockstep);
   LiveStream(const LiveStream&) = delete;
   LiveStream& operator=(const LiveStream&) = delete;
   ~LiveStream();
 
-  /// False: the client for which time waits said nothing in time.
+  /// Begins a step. Returns false when the client for which time waits sent nothing in time.
   bool begin(std::int64_t time) { return begin(time, true); }
-  /// The same without waiting.
+  /// Begins a step without waiting.
   void poll(std::int64_t time) { static_cast<void>(begin(time, false)); }
   const Event* next();
   bool send(std::uint32_t client, std::string_view bytes) { return send(client, bytes, limits_.output_bytes); }
@@ -57,17 +57,17 @@ class LiveStream {
 
   std::int64_t time_ = 0;
   Inbox inbox_;
-  std::size_t next_ = 0;  ///< of `inbox_`
-  /// In lockstep a step has one message at most: whether more have come already, the wall clock decides.
+  std::size_t next_ = 0;  ///< index of the next entry of `inbox_`
+  /// In lockstep a step has one message at most: the number that has come already depends on the wall clock.
   bool has_handed_out_message_ = false;
   Event event_;
 
-  // where bytes take their time
+  // used when bytes take time
   TimedLine input_;
-  std::vector<std::int64_t> due_;  ///< when the first of `inbox_` take effect, ns
+  std::vector<std::int64_t> due_;  ///< instants (ns) at which the first entries of `inbox_` take effect
   OutputLine output_;
   std::uint32_t listener_ = 0;  ///< the client at the other end
-  bool is_ending_ = false;      ///< it is disconnected once all has passed
+  bool is_ending_ = false;      ///< it is disconnected when all bytes have passed
 };
 
 }  // namespace muro::stream

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many streams, and what they cost a step.
+// Many streams, and their cost for a step.
 #include <sys/resource.h>
 
 #include <csignal>
@@ -66,7 +66,7 @@ TEST(Load, NeedsNoMemoryInAStepOnceWarm) {
   EXPECT_EQ(allocations, 0u);
 }
 
-/// A line of /proc/self/task/*/status of the I/O thread, as a set of signals; none: there is no such thread.
+/// Returns the blocked signals of the I/O thread, from /proc/self/task/*/status; nothing when there is no such thread.
 std::optional<std::uint64_t> blocked_in_io_thread() {
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
     if (test::text_of(task.path() / "comm") != "muro streams\n") continue;
@@ -104,7 +104,7 @@ TEST(Load, TellsThatThereAreTooManyFiles) {
   ::setrlimit(RLIMIT_NOFILE, &before);
   EXPECT_SAYS(complaint, "this process may have " + std::to_string(most) + " files open");
   EXPECT_SAYS(complaint, "ulimit -n");
-  // a client that comes then waits until there is room
+  // a client that connects now waits until there is room
   ::setrlimit(RLIMIT_NOFILE, &before);
   Peer peer = Peer::tcp(first.port());
   for (const int fd : holes) ::close(fd);

@@ -17,7 +17,7 @@ struct LockstepRun : testing::Test {
   const std::string text = "unix=" + path;
   LockstepClients clients;
 
-  /// Asks `count` questions, each after the answer to the one before; the times at which they took effect.
+  /// Asks `count` questions, each after the answer to the one before.
   static void ask(Peer& peer, int count, std::size_t wait_us) {
     for (int i = 0; i < count; ++i) {
       usleep(useconds_t(wait_us * std::size_t(i % 3)));
@@ -55,7 +55,7 @@ TEST_F(LockstepRun, IsTheSameWhateverTheClientsSpeed) {
     if (!is_timed) {
       for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(first[i + 1].time, std::int64_t(i) * 1'000'000);
     } else {
-      // 11 bytes there, 11 back: 1.1 ms each; the next step that can see it takes it on
+      // 11 bytes each way take 1.1 ms each; the next step after that takes the message
       EXPECT_EQ(first[1].time, 2'000'000);
       EXPECT_EQ(first[2].time, first[1].time + 4'000'000);
     }

@@ -16,7 +16,7 @@ namespace muro::stream {
 
 namespace {
 
-/// Why nothing can be made in the folder of `path`; empty: it can.
+/// Returns why no file can be made in the folder of `path`; empty when it can.
 std::string problem_of_folder(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   return ::access(folder.c_str(), W_OK | X_OK) == 0 ? "" : reason_at(path, errno);

@@ -8,16 +8,16 @@
 
 namespace muro::stream {
 
-/// Stands in for a LiveStream where a scenario is only looked at: opens nothing, and tells what in the scenario and in
-/// the folders of this machine would keep the stream from being opened. Ports that other programs have and devices that
-/// are not plugged in are matters of the run.
+/// Replaces a LiveStream when a scenario is only checked. It opens nothing. It reports what in the scenario, or in the
+/// folders of this machine, would prevent the stream from being opened. It does not report ports that other programs
+/// use or devices that are not plugged in: these depend on the time of the run.
 class LookedAtStream {
  public:
-  /// Throws muro::Error as LiveStream does.
+  /// Checks the address. Throws muro::Error as LiveStream does.
   LookedAtStream(const std::string& name, const Address& address);
 
  private:
-  Claim claim_;  ///< of this process: keeps two streams of a scenario apart
+  Claim claim_;  ///< claim of this process: two streams of a scenario cannot use one path
 };
 
 }  // namespace muro::stream

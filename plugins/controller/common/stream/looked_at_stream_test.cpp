@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `muro check` says of streams, which it does not open.
+// Messages of `muro check` about streams. The check does not open them.
 #include "plugins/controller/common/stream/looked_at_stream.hpp"
 
 #include <filesystem>
@@ -19,7 +19,7 @@ struct AStreamThatIsOnlyLookedAt : testing::Test {
   test::ScratchFolder folder;
   FakeInputs inputs;
 
-  /// What is said of streams that are looked at one after the other and are there together.
+  /// Returns the error when streams are checked one after the other and exist together.
   std::string complaint(const std::vector<std::string>& addresses) const {
     std::vector<std::unique_ptr<LookedAtStream>> all;
     return test::complaint_of<Error>([&] {
@@ -60,7 +60,7 @@ TEST_F(AStreamThatIsOnlyLookedAt, KnowsTheKindsOfARecording) {
   FakeConnector connector;
   connector.fake_host.inputs = &inputs;
   inputs.replays = true;
-  inputs.inputs = {{-1, 0, 0, ""}, {-1, 1, 0, "BM"}, {-1, 4, 0, ""}};  // as the host shows all
+  inputs.inputs = {{-1, 0, 0, ""}, {-1, 1, 0, "BM"}, {-1, 4, 0, ""}};  // the host shows all inputs
   const std::string_view texts[] = {"tcp=4001"};
   Stream stream(connector, "laser", read_address(connector, 0, texts), {});
   EXPECT_SAYS(test::complaint_of<Error>([&] { stream.open(); }),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// In the place of tls.cpp where muro is built without OpenSSL.
+// Replaces tls.cpp when muro is built without OpenSSL.
 #include "muro/algorithm.hpp"
 #include "plugins/controller/common/stream/tls.hpp"
 

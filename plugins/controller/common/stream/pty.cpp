@@ -18,11 +18,11 @@ namespace muro::stream {
 
 namespace {
 
-/// A pseudo-terminal: its master is ours, and clients open the terminal, one after the other.
+/// A pseudo-terminal. This process has its master; clients open the terminal, one after the other.
 ///
-/// No descriptor of the terminal itself is kept open here. So the system tells when the last client has closed it, and
-/// a device can know that, as by the line DTR of a real one; PtyWatch finds out when it is opened. What a client
-/// has set, such as its bit rate, stays, as with other devices.
+/// This class keeps no descriptor of the terminal itself open. So the system reports when the last client has closed
+/// it. A device can then react, as to the line DTR of a real port. PtyWatch detects when the terminal is opened.
+/// Settings of a client, such as its bit rate, stay, as with other devices.
 class Pty final : public Endpoint {
  public:
   explicit Pty(const EndpointSetup& setup) : setup_(setup), link_(setup.address.path) {}
@@ -46,7 +46,7 @@ class Pty final : public Endpoint {
   }
 
  private:
-  /// A new terminal under our name. What was before stays where that fails.
+  /// Makes a new terminal under our name. When that fails, the earlier terminal stays.
   void create() {
     const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
     try {
@@ -76,7 +76,7 @@ class Pty final : public Endpoint {
     terminal_ = name;
   }
 
-  /// Opens the terminal for a moment. False: it cannot be opened.
+  /// Opens the terminal for a moment. Returns false when it cannot be opened.
   template <class Work>
   static bool with_terminal(const std::string& name, const Work& work) {
     const int terminal = ::open(name.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -95,7 +95,7 @@ class Pty final : public Endpoint {
   }
 
   void client_left(bool by_us) {
-    // What it has not read is not for the next one; nor is the terminal its own for good.
+    // The next client must not get unread bytes of this one, and must be able to open the terminal.
     const bool is_free = !(by_us && has_client(master_)) && with_terminal(terminal_, [](int terminal) {
       ::tcflush(terminal, TCIFLUSH);
       ::ioctl(terminal, TIOCNXCL);
@@ -103,7 +103,7 @@ class Pty final : public Endpoint {
     if (!is_free) hang_up();
     wait();
   }
-  /// Another terminal under the same name, and the end of this one.
+  /// Replaces this terminal by a new one under the same name.
   void hang_up() {
     try {
       create();

@@ -16,7 +16,7 @@ namespace muro::stream {
 namespace {
 
 constexpr std::string_view terminals = "/dev/pts/";
-/// The same folder in other words, by which links of ours are known.
+/// A second spelling of this folder. It marks the links that muro has made.
 constexpr std::string_view our_terminals = "/dev/./pts/";
 
 std::optional<std::string> target_of(const std::string& link) {

@@ -5,17 +5,17 @@
 
 namespace muro::stream {
 
-/// A link with a name that stays, to a pseudo-terminal, whose own name the system chooses.
+/// A link with a fixed name to a pseudo-terminal. The system chooses the name of the terminal itself.
 class PtyLink {
  public:
   explicit PtyLink(std::string path) : path_(std::move(path)) {}
 
-  /// Why there cannot be a link of this name; empty: there can. It replaces nothing but links to terminals that are
-  /// gone, and those that a run has left behind. Once this path is claimed.
+  /// Returns why there cannot be a link of this name; empty when there can. Only links to terminals that are gone, and
+  /// links of earlier runs, are replaced. Called after the path has been claimed.
   std::string obstacle() const;
-  /// Makes it a link to this terminal, in place of what it was. 0, or an error number.
+  /// Makes the path a link to this terminal, and replaces the old link. Returns 0, or an error number.
   int point_to(const std::string& terminal);
-  /// Unless it has become another's.
+  /// Removes the link, unless it now belongs to another process.
   void remove() const;
 
  private:

@@ -38,7 +38,7 @@ struct PseudoTerminal : testing::Test {
 TEST_F(PseudoTerminal, HandsOnEveryByteAsItIs) {
   std::optional<Echo> echo(std::in_place, std::vector<std::string_view>{text}, Framing{});
   Peer peer = Peer::file(path);
-  EXPECT_TRUE(peer.say(all_bytes()));  // whether or not anybody has noticed the client yet
+  EXPECT_TRUE(peer.say(all_bytes()));  // also when nothing has noticed the client yet
   EXPECT_TRUE(echo->run_until([&] { return peer.hear() == all_bytes(); })) << peer.heard.size();
   std::string said;
   for (const Heard& h : echo->heard) said += h.bytes;
@@ -50,7 +50,7 @@ TEST_F(PseudoTerminal, HandsOnEveryByteAsItIs) {
 TEST_F(PseudoTerminal, TellsWhenClientsComeAndGo) {
   Echo echo({text});
   const std::size_t before = open_descriptors();
-  for (int i = 0; i < 30; ++i) EXPECT_TRUE((usleep(100), echo.step(), echo.heard.empty()));  // nobody has opened it
+  for (int i = 0; i < 30; ++i) EXPECT_TRUE((usleep(100), echo.step(), echo.heard.empty()));  // no client has opened it
   for (std::uint32_t i = 0; i < 5; ++i) {
     Peer peer = Peer::file(path);
     EXPECT_TRUE(echo.run_until([&] { return echo.count(Event::Kind::connected) == i + 1; }));
@@ -111,7 +111,7 @@ TEST_F(PseudoTerminal, IsFreeAgainAfterAClientThatHadItToItself) {
     EXPECT_TRUE(echo.run_until([&] { return echo.count(Event::Kind::disconnected) == i; }));
     usleep(5000);
     const pid_t child = ::fork();
-    if (child == 0) {  // what root may do is no test
+    if (child == 0) {  // root could open the terminal in any case
       static_cast<void>(!::seteuid(65534));
       ::_exit(::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK) < 0 && errno == EBUSY ? 1 : 0);
     }
@@ -168,7 +168,7 @@ TEST_F(PseudoTerminal, HangsUpOnGarbage) {
 }
 
 TEST_F(PseudoTerminal, ReplacesLinksThatWereLeftBehind) {
-  ASSERT_EQ(::symlink("/dev/pts/99999", path.c_str()), 0);  // of a terminal that is gone
+  ASSERT_EQ(::symlink("/dev/pts/99999", path.c_str()), 0);  // link to a terminal that is gone
   { Echo echo({text}); }
   const pid_t child = ::fork();
   if (child == 0) {
@@ -178,7 +178,7 @@ TEST_F(PseudoTerminal, ReplacesLinksThatWereLeftBehind) {
   int status = 0;
   ::waitpid(child, &status, 0);
   EXPECT_TRUE(WIFSIGNALED(status) && is_there());
-  const int other = ::posix_openpt(O_RDWR | O_NOCTTY);  // has the number of the terminal that is gone
+  const int other = ::posix_openpt(O_RDWR | O_NOCTTY);  // gets the number of the terminal that is gone
   Echo echo({text});
   Peer peer = Peer::file(path);
   EXPECT_TRUE(peer.say("a\n"));
@@ -210,7 +210,7 @@ TEST_F(PseudoTerminal, LeavesFilesAndLinksOfOthers) {
               "the link to it cannot be made: there is no folder `/no/such/folder`; create it, or choose another path");
 }
 
-/// A terminal of the test's own stands for a device.
+/// A serial device; the test's own terminal replaces the hardware.
 struct SerialDevice : testing::Test {
   Peer line{::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)};
   std::string device;
@@ -225,7 +225,7 @@ TEST_F(SerialDevice, HandsOnEveryByteAsItIs) {
   const std::string serial = "serial=" + device;
   Echo echo({serial, "baud=115200"}, {});
   termios settings{};
-  ASSERT_EQ(::tcgetattr(line.fd, &settings), 0);  // a master tells those of its terminal
+  ASSERT_EQ(::tcgetattr(line.fd, &settings), 0);  // a master reports the settings of its terminal
   EXPECT_EQ(::cfgetospeed(&settings), B115200);
   EXPECT_TRUE(line.say(all_bytes()));
   EXPECT_TRUE(echo.run_until([&] { return line.hear() == all_bytes(); }));

@@ -26,7 +26,7 @@ PtyWatch::PtyWatch(IoThread& io) : timer_(io.context()), folder_(io.context()) {
 
 bool has_client(int master) {
   pollfd state{master, 0, 0};
-  return ::poll(&state, 1, 0) == 0;  // POLLHUP tells that nobody has it open
+  return ::poll(&state, 1, 0) == 0;  // POLLHUP means that no client has it open
 }
 
 void PtyWatch::wait(int master, std::function<void()> opened) {

@@ -12,16 +12,16 @@
 
 namespace muro::stream {
 
-/// Finds out when a client opens one of the pseudo-terminals that have none. A master is not told; so this watches the
-/// folder of the terminals, and looks at all masters when somebody has opened something there, and once a second.
-/// Where folders cannot be watched, it looks 50 times a second. Who has waited lets go of it in the I/O thread.
+/// Detects when a client opens a pseudo-terminal that has no client. The system does not notify the master. So this
+/// class watches the folder of the terminals. It checks all masters when something was opened there, and once a second.
+/// When folders cannot be watched, it checks 50 times a second. An owner releases it in the I/O thread.
 class PtyWatch : public std::enable_shared_from_this<PtyWatch> {
  public:
   static std::shared_ptr<PtyWatch> shared(IoThread& io);
   explicit PtyWatch(IoThread& io);
 
-  /// Calls `opened` once, soon after the terminal behind this master has been opened, though it may be closed again
-  /// with something said. [I/O thread]
+  /// Calls `opened` once, soon after the terminal of this master was opened. The client may have sent bytes and closed
+  /// it again by then. [I/O thread]
   void wait(int master, std::function<void()> opened);
   void forget(int master);  ///< [I/O thread]
 
@@ -37,7 +37,7 @@ class PtyWatch : public std::enable_shared_from_this<PtyWatch> {
   std::vector<pollfd> masters_;
 };
 
-/// Whether a client has the terminal behind a master open.
+/// Whether a client has the terminal of a master open.
 bool has_client(int master);
 
 }  // namespace muro::stream

@@ -8,11 +8,11 @@
 
 namespace muro::stream {
 
-/// Tries something again later, unless it was stopped before. [I/O thread]
+/// Makes an attempt again later, unless it is stopped before. [I/O thread]
 class Retry {
  public:
   Retry(IoThread& io, std::function<void()> attempt) : timer_(io.context()), attempt_(std::move(attempt)) {}
-  /// In place of the attempt that was to come, if there was one.
+  /// Schedules the attempt. Replaces an attempt that was scheduled before.
   void later(std::chrono::nanoseconds delay = std::chrono::milliseconds(250)) {
     timer_.expires_after(delay);
     timer_.async_wait([this](const boost::system::error_code& cancelled) {

@@ -21,9 +21,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int hardware_bytes = 16;  // that a usual UART holds
+constexpr int hardware_bytes = 16;  // capacity of a usual UART
 
-/// A serial device of this machine: one client, at the other end of the line. Opened again when it comes back.
+/// A serial device of this machine. It has one client, at the other end of the line. Opened again when it comes back.
 class Serial final : public Endpoint, private IoThread::Source {
  public:
   explicit Serial(const EndpointSetup& setup)
@@ -67,11 +67,11 @@ class Serial final : public Endpoint, private IoThread::Source {
     empty_since_.reset();
     change_rate();
   }
-  /// Now, or when all that is to go out at the rate before has left the hardware. Never waits: the thread is that of
-  /// all streams.
+  /// Changes the bit rate now, or after all bytes for the old rate have left the hardware. Never waits, because all
+  /// streams share this thread.
   void change_rate() {
-    const std::uint32_t baud = wanted_;  // what was sent before this was set is in the exchange by now
-    setup_.connections.on_signal();      // and has_output() from here on
+    const std::uint32_t baud = wanted_;  // bytes sent before this was set are in the exchange by now
+    setup_.connections.on_signal();      // and has_output() counts them from here on
     const auto speed = baud == 0 ? first_speed_ : speed_code(baud);
     if (speed == speed_) return;
     if (!speed)
@@ -85,8 +85,8 @@ class Serial final : public Endpoint, private IoThread::Source {
     if (device >= 0) ::close(device);
   }
 
-  /// Until the hardware has sent all. Where a driver does not know that, bytes that it has taken from the queue get the
-  /// time of `hardware_bytes`.
+  /// Returns the time until the hardware has sent all. When a driver does not report this, bytes that it has taken from
+  /// the queue get the time of `hardware_bytes`.
   Clock::duration time_to_wait(int device) {
     const auto has_bytes = [&] {
       int queued = 0;
@@ -106,7 +106,7 @@ class Serial final : public Endpoint, private IoThread::Source {
   }
 
   void set_speed(int device, speed_t speed) {
-    speed_ = speed;  // when it is opened again, too
+    speed_ = speed;  // also used when the device is opened again
     termios settings{};
     if (::tcgetattr(device, &settings) != 0) return;
     ::cfsetspeed(&settings, speed);
@@ -124,7 +124,7 @@ class Serial final : public Endpoint, private IoThread::Source {
     configure();
   }
 
-  /// Eight bits, no parity, one stop bit, no flow control; bytes as they are.
+  /// Sets eight bits, no parity, one stop bit, no flow control and unchanged bytes.
   void configure() {
     termios settings{};
     if (::tcgetattr(descriptor_, &settings) != 0) fail(system_reason(errno));
@@ -152,9 +152,9 @@ class Serial final : public Endpoint, private IoThread::Source {
   const EndpointSetup setup_;
   Retry retry_;
   Retry rate_change_;
-  std::optional<Clock::time_point> empty_since_;  ///< the queue of what is to go out at the rate before
-  std::optional<speed_t> first_speed_;            ///< as the address says, else as it was found
-  std::optional<speed_t> speed_;                  ///< as it is now
+  std::optional<Clock::time_point> empty_since_;  ///< when the queue of bytes for the old rate became empty
+  std::optional<speed_t> first_speed_;            ///< rate of the address, else the rate that was found
+  std::optional<speed_t> speed_;                  ///< present rate
   std::atomic<std::uint32_t> wanted_ = 0;         ///< bit/s; 0: the first
   int descriptor_ = -1;
   bool is_told_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bit rate of serial devices. A terminal stands for the device: its master tells how it is set.
+// The bit rate of serial devices. A terminal represents the device; its master shows the settings.
 #include <fcntl.h>
 #include <stdlib.h>
 #include <termios.h>
@@ -28,7 +28,7 @@ struct SerialLine : ::testing::Test {
   }
 };
 
-/// The I/O thread does nothing from the end of the constructor on, until it is released.
+/// Keeps the I/O thread busy from the end of the constructor until it is released.
 struct BusyIo {
   BusyIo() {
     std::promise<void> begun;
@@ -73,7 +73,7 @@ TEST_F(SerialLine, ReturnsToTheRateThatItWasFoundWith) {
   EXPECT_EQ(speed(), speed_t(B57600));
   echo.stream.set_baud(38400);
   EXPECT_TRUE(echo.run_until([&] { return speed() == B38400; }));
-  echo.stream.set_baud(123);  // there is no such rate: it stays
+  echo.stream.set_baud(123);  // there is no such rate: the old one stays
   echo.stream.set_baud(0);
   EXPECT_TRUE(echo.run_until([&] { return speed() == B57600; }));
 }
@@ -86,13 +86,13 @@ TEST_F(SerialLine, GivesTheLastBytesTheirTimeToLeaveTheHardware) {
   EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(133)) << "16 characters";
 }
 
-/// The stream has been told of a rate before, and looks after that while the reply is handed to it.
+/// The stream has got a new rate before. The I/O thread handles it only after the reply was sent.
 TEST_F(SerialLine, SendsAReplyAtTheRateBefore) {
   Echo echo({device, "baud=19200"});
   EXPECT_TRUE(echo.run_until([&] { return echo.count(Event::Kind::connected) == 1; }));
   const Peer same_device(::open(::ptsname(far_end.fd), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   std::size_t before = 0;
-  for (int i = 0; i < 20; ++i) {  // until the line takes no more, after the system has moved its buffers, too
+  for (int i = 0; i < 20; ++i) {  // until the line takes no more, also after the system has moved its buffers
     for (ssize_t size = 0; (size = ::write(same_device.fd, "x", 1)) > 0;) before += std::size_t(size);
     usleep(1000);
   }

@@ -14,7 +14,7 @@ namespace muro::stream {
 
 namespace {
 
-/// Of a recorded input that is no Event: the client for which time waits said nothing in time.
+/// Kind of a recorded input that is no Event: the client for which time waits sent nothing in time.
 constexpr std::uint32_t timed_out_kind = 3;
 
 }  // namespace
@@ -47,7 +47,7 @@ class Stream::Impl {
     live = std::make_unique<LiveStream>(name, address, framing, limits, host, lockstep);
   }
 
-  /// Tells what a run would refuse.
+  /// Throws the errors that a run would throw.
   void look() {
     if (!is_replayed()) {
       if (!looked_at) looked_at = std::make_unique<LookedAtStream>(name, address);
@@ -87,7 +87,7 @@ class Stream::Impl {
     return event;
   }
 
-  /// Where messages are not recorded, what they bring about is told by whoever brings it about.
+  /// Marks the run as not repeatable. When messages are not recorded, their receiver reports this instead.
   void tell() const {
     if (inputs && limits.is_recorded)
       inputs->not_repeatable("stream " + quote(name) +
@@ -146,7 +146,7 @@ class Stream::Impl {
   bool has_told = false;
   Event replayed;
   std::unique_ptr<LiveStream> live;           ///< null: not open
-  std::unique_ptr<LookedAtStream> looked_at;  ///< where the scenario is only looked at
+  std::unique_ptr<LookedAtStream> looked_at;  ///< when the scenario is only checked
 };
 
 Stream::Stream(Connector& connector, std::string name, Address address, Framing framing, Limits limits)

@@ -13,7 +13,7 @@
 
 namespace muro::stream {
 
-/// What the system says about an error number, and what to do about it where the reason is no matter of streams.
+/// Returns the system's text for an error number. Adds advice when the reason has nothing to do with streams.
 inline std::string system_reason(int error) {
   std::string text = std::system_category().message(error);
   if (error == EMFILE || error == ENFILE) {
@@ -25,7 +25,7 @@ inline std::string system_reason(int error) {
   return text;
 }
 
-/// The same where a file is to be made at `path`.
+/// Returns the same text for an error in making a file at `path`.
 inline std::string reason_at(const std::string& path, int error) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   std::error_code unknown;

@@ -9,10 +9,10 @@
 
 namespace muro::stream {
 
-/// What the host of an address stands for. Throws muro::Error. [setup]
+/// Returns the endpoints for the host of an address. Throws muro::Error. [setup]
 std::vector<asio::ip::tcp::endpoint> resolve(const EndpointSetup& setup, bool is_passive);
 
-/// Small messages leave at once; a client whose machine is gone is noticed within a minute.
+/// Sets options: small messages are sent at once; a client whose machine is gone is noticed within a minute.
 void set_tcp_options(int socket);
 
 }  // namespace muro::stream

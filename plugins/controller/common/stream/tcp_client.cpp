@@ -10,7 +10,7 @@ namespace {
 
 using asio::ip::tcp;
 
-/// Connects to a server, and again when there is none yet or the connection is lost.
+/// Connects to a server, and tries again when there is none yet or the connection is lost.
 class TcpClient final : public Endpoint {
  public:
   explicit TcpClient(const EndpointSetup& setup)
@@ -48,7 +48,7 @@ class TcpClient final : public Endpoint {
     set_tcp_options(descriptor);
     if (!setup_.connections.add(descriptor, Connection::Descriptor::socket)) retry_.later();
   }
-  /// TCP does that where a port of this machine has no server, and is free for clients.
+  /// Detects a connection to itself: TCP makes one when a local port has no server and is free for clients.
   bool is_connected_to_itself() const {
     boost::system::error_code error;
     const tcp::endpoint local = socket_.local_endpoint(error);

@@ -22,7 +22,7 @@ class TcpServer final : public Endpoint {
     const std::vector<tcp::endpoint> endpoints = resolve(setup_, true);
     int last_error = 0;
     for (tcp::endpoint endpoint : endpoints) {
-      endpoint.port(setup_.address.port);  // of the first, where any would do
+      endpoint.port(setup_.address.port);  // port of the first endpoint, when any port was allowed
       const int socket = listening(endpoint, last_error);
       if (socket >= 0) acceptors_.emplace_back(setup_, socket, set_tcp_options);
     }
@@ -38,7 +38,7 @@ class TcpServer final : public Endpoint {
   }
 
  private:
-  /// A socket that listens; -1 and `error` where this machine has no such address, which may be one of several.
+  /// Returns a listening socket; -1 and `error` when this machine lacks this address, which may be one of several.
   int listening(const tcp::endpoint& endpoint, int& error) {
     tcp::acceptor acceptor(setup_.io.context());
     boost::system::error_code code;

@@ -145,11 +145,11 @@ TEST(TcpServer, IsNotDisturbedByAClientThatReadsNothing) {
     echo.step();
     usleep(100);
   }
-  EXPECT_LT(taken, 150);  // 20 MB: more than the buffers of the system and ours
+  EXPECT_LT(taken, 150);  // 20 MB: more than the buffers of the system and of the stream
   EXPECT_EQ(echo.stream.statistics().dropped, 200 - taken);
   EXPECT_TRUE(good.say("still there\n"));
   EXPECT_TRUE(echo.run_until([&] { return good.hear() == "still there\n"; }));
-  // what it does get is whole
+  // all that it does get is complete
   EXPECT_TRUE(echo.run_until([&] { return deaf.hear().size() == taken * kilobytes.size(); })) << deaf.heard.size();
   EXPECT_TRUE(echo.stream.send(0, "and on\n"));
   EXPECT_TRUE(echo.run_until([&] { return deaf.hear().ends_with("xand on\n"); }));
@@ -181,7 +181,7 @@ TEST(TcpServer, ReadsNoMoreOfAFloodThanItsBound) {
   EXPECT_TRUE(echo.run_until([&] {
     return std::any_of(echo.heard.begin(), echo.heard.end(), [](const Heard& h) { return h.bytes == "hello\n"; });
   }));
-  // ten a step of the flood, none lost
+  // ten messages of the flood in each step, none lost
   const std::size_t before = echo.heard.size();
   EXPECT_TRUE(echo.run_until([&] { return echo.heard.size() > before + 100; }));
   std::string heard;
@@ -190,7 +190,7 @@ TEST(TcpServer, ReadsNoMoreOfAFloodThanItsBound) {
   EXPECT_EQ(heard, said.substr(0, heard.size()));
   std::map<std::int64_t, int> in_step;
   for (const Heard& h : echo.heard) in_step[h.time] += h.client == 0 ? 1 : 0;
-  for (const auto& [time, count] : in_step) EXPECT_LE(count, 11);  // with the news of its connection
+  for (const auto& [time, count] : in_step) EXPECT_LE(count, 11);  // includes the event of its connection
   EXPECT_GT(echo.stream.statistics().held_back, 0);
 }
 
@@ -292,7 +292,7 @@ TEST(TcpServer, SendsTheLastWordsAtItsEnd) {
   EXPECT_TRUE(peer.heard.ends_with("goodbye\n"));
 }
 
-/// A server of plain POSIX.
+/// Returns a listening socket, made with plain POSIX calls.
 Peer server_at(std::uint16_t port) {
   Peer server(test::bound_to_tcp(port));
   EXPECT_EQ(::listen(server.fd, 1), 0);
@@ -306,7 +306,7 @@ TEST(TcpClient, ConnectsAgainAndAgain) {
   const std::string connect = "connect=localhost:" + std::to_string(port);
   Echo echo({connect});
   for (int i = 0; i < 20; ++i) echo.step();
-  EXPECT_TRUE(echo.heard.empty());  // nobody is there, and nobody is waited for
+  EXPECT_TRUE(echo.heard.empty());  // nobody is there, and the stream waits for nobody
   for (std::uint32_t i = 0; i < 2; ++i) {
     server.emplace(server_at(port));
     Peer peer(::accept(server->fd, nullptr, nullptr));

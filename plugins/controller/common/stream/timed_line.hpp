@@ -8,20 +8,20 @@
 
 namespace muro::stream {
 
-/// A serial line, on which bytes pass one behind the other, each in ten bit times.
+/// A serial line. Bytes pass one after the other, each in ten bit times.
 class TimedLine {
  public:
   explicit TimedLine(std::uint32_t baud) : baud_(baud) {}
 
-  /// Puts bytes behind those that are on the line at `now`. The instant (ns) at which the last of them has passed.
+  /// Appends bytes at `now`. Returns the instant (ns) when the last of them has passed.
   std::int64_t put(std::int64_t now, std::size_t bytes) {
     if (now >= end()) restart(now, 0);
     on_line_ += bytes;
     return end();
   }
-  /// How many more bytes have passed by `now`.
+  /// Returns the number of further bytes that have passed by `now`.
   std::size_t advance(std::int64_t now) {
-    // ends before `now` is limited by the end of what is on the line, so that the product stays small
+    // the end of the bytes on the line limits `now`, so that the product stays small
     const std::uint64_t elapsed = now <= origin_ ? 0 : std::uint64_t(std::min(now, end()) - origin_);
     const std::uint64_t passed = now >= end() ? on_line_ : std::min(on_line_, elapsed * baud_ / bits_ns);
     const std::uint64_t more = passed - std::min(passed, passed_);
@@ -29,14 +29,14 @@ class TimedLine {
     if (passed_ > rebase_after) restart(time_of(passed_), on_line_ - passed_);
     return std::size_t(more);
   }
-  /// What has not passed by `now`, the last advance(), passes at the new rate.
+  /// Sets the rate for the bytes that have not passed by `now`, the instant of the last advance().
   void set_baud(std::int64_t now, std::uint32_t baud) {
     restart(now);
     baud_ = baud;
   }
-  /// What is on the line starts again, at an instant that may be earlier.
+  /// Starts the bytes on the line again at `now`, which may be earlier than before.
   void restart(std::int64_t now) { restart(now, on_line_ - passed_); }
-  /// Nothing is on it.
+  /// Removes all bytes from the line.
   void clear() { restart(origin_, 0); }
   std::int64_t end() const { return time_of(on_line_); }
 
@@ -56,10 +56,10 @@ class TimedLine {
   std::uint64_t baud_;
   std::int64_t origin_ = 0;    ///< ns
   std::uint64_t on_line_ = 0;  ///< bytes since `origin_`
-  std::uint64_t passed_ = 0;   ///< of them, told by advance()
+  std::uint64_t passed_ = 0;   ///< number of these bytes that advance() has returned
 };
 
-/// Bytes on their way to a client, and what is due once they have passed.
+/// Bytes on their way to a client, and answers that end when these bytes have passed.
 class OutputLine {
  public:
   explicit OutputLine(std::uint32_t baud) : line_(baud) {}
@@ -70,10 +70,10 @@ class OutputLine {
     bytes_ += bytes;
     put_ += bytes.size();
   }
-  /// An answer is complete when all that is on the line now has passed.
+  /// Marks the end of an answer: it is complete when all bytes now on the line have passed.
   void put_answer() { answers_.push_back(put_); }
 
-  /// What has passed by `now`; good until the next put.
+  /// Returns the bytes that have passed by `now`; valid until the next put.
   std::string_view advance(std::int64_t now) {
     if (head_ > bytes_.size() / 2) {
       bytes_.erase(0, head_);
@@ -85,14 +85,14 @@ class OutputLine {
     passed_ += size;
     return passed;
   }
-  /// How many answers have become complete.
+  /// Returns the number of answers that have become complete.
   std::size_t take_answers() {
     const auto end = std::upper_bound(answers_.begin(), answers_.end(), passed_);
     const auto count = std::size_t(end - answers_.begin());
     answers_.erase(answers_.begin(), end);
     return count;
   }
-  /// For another client: nothing is on its way, and nothing is owed.
+  /// Prepares for another client: removes all bytes and answers.
   void clear() {
     line_.clear();
     answers_.clear();
@@ -106,9 +106,9 @@ class OutputLine {
  private:
   TimedLine line_;
   std::string bytes_;
-  std::size_t head_ = 0;                ///< of `bytes_` have passed
-  std::uint64_t put_ = 0, passed_ = 0;  ///< since ever
-  std::vector<std::uint64_t> answers_;  ///< complete when so many have passed
+  std::size_t head_ = 0;                ///< number of `bytes_` that have passed
+  std::uint64_t put_ = 0, passed_ = 0;  ///< total counts of bytes
+  std::vector<std::uint64_t> answers_;  ///< counts of passed bytes at which the answers are complete
 };
 
 }  // namespace muro::stream

@@ -13,7 +13,7 @@ constexpr std::int64_t ms = 1'000'000;
 TEST(TimedLine, TakesTenBitTimesAByte) {
   TimedLine line(9600);
   EXPECT_EQ(line.put(5 * ms, 96), 105 * ms);
-  EXPECT_EQ(line.put(50 * ms, 96), 205 * ms);  // behind what is there
+  EXPECT_EQ(line.put(50 * ms, 96), 205 * ms);  // after the bytes that are on the line
   EXPECT_EQ(line.advance(5 * ms), 0);
   EXPECT_EQ(line.advance(6 * ms), 0);  // 0.96 bytes
   EXPECT_EQ(line.advance(7 * ms), 1);
@@ -30,7 +30,7 @@ TEST(TimedLine, KeepsTimeForEver) {
   for (int i = 0; i < 10'000; ++i) {
     now = std::int64_t(i) * 10 * ms;
     passed += line.advance(now);
-    end = line.put(now, 120);  // 115.2 would do: the line is never idle
+    end = line.put(now, 120);  // 115.2 are enough: the line is never idle
   }
   EXPECT_EQ(passed, std::uint64_t(std::int64_t(11520) * now / 1'000'000'000));
   EXPECT_NEAR(double(end), 1.2e6 / 11520 * 1e9, 2);
@@ -57,7 +57,7 @@ TEST_F(TimedStream, DelaysWhatComesAndWhatGoes) {
   EXPECT_TRUE(peer.say("123456789\nabc\n"));
   while (echo.stream.statistics().messages < 2) usleep(100);
   const std::int64_t begin = echo.time;
-  std::vector<std::int64_t> heard_at;  // bytes of the answer
+  std::vector<std::int64_t> heard_at;  // arrival of the bytes of the answer
   for (int i = 0; i < 40; ++i) {
     echo.step();
     usleep(1000);
@@ -70,7 +70,7 @@ TEST_F(TimedStream, DelaysWhatComesAndWhatGoes) {
   EXPECT_EQ(echo.heard[2].time - begin, 14 * ms);
   EXPECT_EQ(peer.heard, "123456789\nabc\n");
   for (std::size_t i = 0; i < heard_at.size(); ++i) EXPECT_GE(heard_at[i], std::int64_t(11 + i));
-  EXPECT_LE(heard_at.back(), 24 + 3);  // the wall clock has its say in when it is read
+  EXPECT_LE(heard_at.back(), 24 + 3);  // the exact time also depends on when the wall clock lets it be read
 }
 
 TEST_F(TimedStream, ChangesItsRate) {
@@ -83,11 +83,11 @@ TEST_F(TimedStream, ChangesItsRate) {
   echo.stream.set_baud(1000000);
   for (int i = 0; i < 5; ++i) echo.step();
   EXPECT_TRUE((usleep(5000), peer.hear().size() == 510)) << peer.heard.size();
-  echo.stream.set_baud(0);  // as at the start
+  echo.stream.set_baud(0);  // 0: the rate at the start
   for (int i = 0; i < 10; ++i) echo.step();
   EXPECT_TRUE((usleep(5000), peer.hear().size() == 520)) << peer.heard.size();
   echo.stream.set_baud(1000000);
-  echo.stream.disconnect(0);  // when all has passed
+  echo.stream.disconnect(0);  // takes effect when all bytes have passed
   for (int i = 0; i < 4; ++i) echo.step();
   EXPECT_TRUE((usleep(5000), peer.hear().size() == 920 && !peer.is_closed)) << peer.heard.size();
   EXPECT_TRUE(echo.run_until([&] { return peer.hear().size() == 1000 && peer.is_closed; }));

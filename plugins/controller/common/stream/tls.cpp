@@ -22,7 +22,7 @@ std::string reason_of_openssl() {
   return reason ? reason : "for no reason that OpenSSL gives";
 }
 
-/// Nobody is asked for a passphrase on the terminal of a simulation.
+/// Refuses: a simulation asks for no passphrase on its terminal.
 int no_passphrase(char*, int, int, void*) { return 0; }
 
 int bounded(std::size_t size) { return int(std::min(size, std::size_t(INT_MAX))); }

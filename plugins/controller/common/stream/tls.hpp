@@ -7,37 +7,37 @@
 
 namespace muro::stream {
 
-/// TLS of one client: the bytes of its socket on one side, what it says on the other. Does no input and output itself.
+/// TLS of one client, between the encrypted bytes of its socket and the plain bytes. Makes no input or output itself.
 class TlsSession {
  public:
   class Impl;
   explicit TlsSession(std::unique_ptr<Impl> impl);
   ~TlsSession();
 
-  /// What the socket has brought.
+  /// Takes bytes that were received on the socket.
   void take_in(std::string_view encrypted);
-  /// What the client has said of it so far, `most` bytes at most. 0: nothing more, for now or, see below, for good.
+  /// Reads at most `most` plain bytes. Returns 0 when there are none; none will follow after the end or a failure.
   std::size_t read(char* to, std::size_t most);
-  bool has_ended() const;   ///< the client has said that it says no more
-  bool has_failed() const;  ///< it does not speak TLS, or was interfered with
+  bool has_ended() const;   ///< the client has ended its output
+  bool has_failed() const;  ///< the client does not speak TLS, or the bytes were changed on the way
 
-  /// Whether both sides have agreed on a key, so that something may be written.
+  /// Whether both sides have agreed on a key. Only then something may be written.
   bool is_ready() const;
   void write(std::string_view plain);
-  /// Says that nothing more comes. False: that was said before.
+  /// Ends the output. Returns false when it was ended before.
   bool end();
-  /// What is to go to the socket; empty: nothing.
+  /// Returns the bytes to send to the socket; empty when there are none.
   std::string take_output();
 
  private:
   std::unique_ptr<Impl> impl_;
 };
 
-/// The certificate with which a server shows who it is.
+/// The certificate that identifies a server.
 class TlsServer {
  public:
-  /// Files in PEM format: the certificate, with those that vouch for it, and its key, without a passphrase. Throws
-  /// muro::Error with the reason of OpenSSL.
+  /// Reads files in PEM format: the certificate, with the certificates that vouch for it, and its key, without a
+  /// passphrase. Throws muro::Error with the reason of OpenSSL.
   TlsServer(const std::string& certificate, const std::string& key);
   ~TlsServer();
 

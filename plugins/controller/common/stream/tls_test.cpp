@@ -16,7 +16,7 @@
 namespace muro::stream {
 namespace {
 
-/// A certificate that vouches for itself, and its key.
+/// A self-signed certificate and its key.
 struct Certificate {
   Certificate() {
     EVP_PKEY* const key = EVP_EC_gen("P-256");
@@ -57,7 +57,7 @@ class MemoryClient {
   }
   void say(std::string_view text) { unsaid_ += text; }
   void end() { SSL_shutdown(ssl_); }
-  /// Carries bytes to and fro until none are left. Returns what the server heard.
+  /// Carries bytes in both directions until none remain. Returns the bytes that the server received.
   std::string talk_to(TlsSession& server) {
     std::string heard;
     for (int quiet = 0; quiet < 3;) {

@@ -47,7 +47,7 @@ class UnixServer final : public Endpoint {
  private:
   const sockaddr* address() const { return reinterpret_cast<const sockaddr*>(&name_); }
 
-  /// Removes the socket of a process that is gone; refuses to remove anything else.
+  /// Removes the socket of a process that has ended; refuses to remove anything else.
   void remove_stale() const {
     struct stat status {};
     if (::lstat(name_.sun_path, &status) != 0) return;

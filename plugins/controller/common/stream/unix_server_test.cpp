@@ -22,7 +22,7 @@ struct UnixSocket : testing::Test {
     struct stat status {};
     return ::lstat(path.c_str(), &status) == 0;
   }
-  /// A socket at the path that nobody serves.
+  /// Leaves a socket at the path that nobody serves.
   void leave_behind() const { Peer(test::bound_to_unix(path)).close(); }
 };
 

@@ -10,11 +10,11 @@ namespace muro::wire {
 
 namespace {
 
-// Types of replies; those of requests are the numbers of Verb.
+// Types of replies; types of requests are the numbers of Verb.
 constexpr std::uint8_t ok_type = 0x80, info_type = 0x81, state_type = 0x82, report_type = 0x83, fault_type = 0x84,
                        time_type = 0x87;
 
-/// The payload of a request, from front to back.
+/// The payload of a request, read from front to back.
 class Payload {
  public:
   explicit Payload(std::string_view bytes) : rest_(bytes) {}
@@ -52,7 +52,7 @@ Quantity take_quantity(Payload& payload) {
   return Quantity(quantity);
 }
 
-/// "[group [quantity]]", to the end.
+/// Reads "[group [quantity]]" up to the end.
 void take_place(Payload& payload, std::size_t groups, Request& out) {
   if ((out.names_group = !payload.empty())) out.group = take_group(payload, groups);
   if (!payload.empty()) out.quantity = take_quantity(payload);

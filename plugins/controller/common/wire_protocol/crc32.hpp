@@ -7,7 +7,7 @@
 
 namespace muro::wire {
 
-/// CRC-32/ISO-HDLC, that of Ethernet, zlib and PNG: polynomial 0x04c11db7, reflected, begins and ends with 0xffffffff.
+/// CRC-32/ISO-HDLC, used by Ethernet, zlib and PNG: polynomial 0x04c11db7, reflected, begins and ends with 0xffffffff.
 constexpr std::uint32_t crc32(std::string_view bytes) {
   constexpr auto table = [] {
     std::array<std::uint32_t, 256> all{};

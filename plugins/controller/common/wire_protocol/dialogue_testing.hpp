@@ -21,7 +21,7 @@ namespace muro::wire {
 using Settings = std::map<std::string, ParameterInput>;
 using Texts = std::vector<std::string>;
 
-/// A simulation that knows on which ports it serves.
+/// A simulation that finds the ports of its streams.
 struct Served : test::Scene {
   explicit Served(std::uint64_t seed = 1) : Scene(seed) {
     set_log([this](LogLevel level, std::string_view text) {
@@ -29,7 +29,7 @@ struct Served : test::Scene {
       log += std::string(text) + "\n";
     });
   }
-  /// The port of a stream: "arm_0/joints".
+  /// Returns the port of a stream: "arm_0/joints".
   std::uint16_t port(const std::string& stream) const {
     const std::uint16_t found = test::tcp_port_in(log, stream);
     EXPECT_NE(found, 0) << "no stream " << stream << ": " << log;
@@ -39,7 +39,7 @@ struct Served : test::Scene {
   std::vector<std::string> warnings;
 };
 
-/// A client with what it has heard.
+/// A client that keeps the received bytes.
 class Client {
  public:
   explicit Client(std::uint16_t port) : peer_(test::Peer::tcp(port)) {}
@@ -47,17 +47,17 @@ class Client {
   void say(std::string_view bytes) const { EXPECT_TRUE(peer_.say(bytes)); }
   void close() { peer_.close(); }
   bool is_closed() const { return peer_.is_closed; }
-  /// Bytes that have come and were not taken yet.
+  /// Returns the bytes that were received and not taken yet.
   std::string& heard() {
     peer_.hear();
     return peer_.heard;
   }
-  /// The next whole line without its end; false: there is none yet.
+  /// Takes the next complete line, without its end. Returns false when there is none yet.
   bool take_line(std::string& line) {
     peer_.hear();
     return peer_.take_line(line);
   }
-  /// Waits for a line of a simulation that runs by itself.
+  /// Waits for a line, while the simulation runs on its own.
   std::string wait_line() { return peer_.wait_line(); }
   std::string ask_running(const std::string& line) {
     say(line + "\n");
@@ -68,7 +68,7 @@ class Client {
   test::Peer peer_;
 };
 
-/// Runs until `done`, in steps of `seconds`, for at most 5 s of the wall clock.
+/// Runs until `done` returns true, in steps of `seconds`, for at most 5 s of the wall clock.
 template <class Done>
 bool run_until(test::Scene& s, Done done, double seconds = 0.01) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
@@ -80,7 +80,7 @@ bool run_until(test::Scene& s, Done done, double seconds = 0.01) {
   return true;
 }
 
-/// The next line that the client hears, while the simulation runs.
+/// Runs the simulation until the client receives a line, and returns this line.
 inline std::string next_line(test::Scene& s, Client& client, double seconds = 0.01) {
   std::string line;
   EXPECT_TRUE(run_until(
@@ -93,7 +93,7 @@ inline std::string ask(test::Scene& s, Client& client, const std::string& line, 
   return next_line(s, client, seconds);
 }
 
-/// The numbers of a reply, behind its first word.
+/// Returns the numbers of a reply, after its first word.
 inline std::vector<double> numbers_of(const std::string& reply) {
   std::vector<double> numbers;
   const char* at = reply.c_str();

@@ -6,7 +6,7 @@
 
 namespace muro::wire {
 
-/// Why a request is refused. The numbers are part of the protocols.
+/// Reasons to refuse a request. The numbers are part of the protocols.
 enum class FaultCode : std::uint8_t {
   unknown_request = 1,
   wrong_fields = 2,  ///< too few, too many, or cut short
@@ -14,13 +14,13 @@ enum class FaultCode : std::uint8_t {
   unknown_quantity = 4,
   not_a_number = 5,  ///< or not a finite one
   out_of_range = 6,
-  not_available = 7,  ///< the group is not read, or not set, in this way
+  not_available = 7,  ///< the group cannot be read, or set, in this way
 };
 
-/// A request that cannot be carried out. Nothing of it has been. Thrown, and sent to the client.
+/// A request that cannot be carried out. No part of it has taken effect. It is thrown, and sent to the client.
 struct Fault {
   FaultCode code;
-  std::string text;  ///< a line
+  std::string text;  ///< one line
 };
 
 }  // namespace muro::wire

@@ -32,7 +32,7 @@ bool has_right_crc(std::string_view frame) {
   return crc == crc32(frame.substr(0, end));
 }
 
-/// Bytes before the next one with which a frame may begin, behind the first.
+/// Returns the number of bytes before the next possible begin of a frame, from the second byte on.
 std::size_t garbage_size(std::string_view bytes) { return std::min(bytes.find(first_sync, 1), bytes.size()); }
 
 }  // namespace

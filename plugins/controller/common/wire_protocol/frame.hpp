@@ -28,17 +28,17 @@ struct Frame {
 };
 
 inline constexpr std::size_t frame_header = 8, frame_overhead = 12;
-/// Of frames that are received: more is taken for garbage, so that a wrong length holds up little.
+/// Longest payload of a received frame. A longer one counts as garbage, so that a wrong length causes little delay.
 inline constexpr std::size_t longest_request = 2048;
 inline constexpr std::size_t longest_payload = 65535;
 
-/// The frame that `bytes` are. None: they are not one whole, intact frame.
+/// Returns the frame that `bytes` form; nothing when they are not exactly one intact frame.
 std::optional<Frame> read_frame(std::string_view bytes);
 
-/// As stream::Framing wants it: a frame, or garbage up to where the next one may begin.
+/// Returns the size of a frame, or of garbage up to the next possible frame; for stream::Framing.
 std::size_t frame_size(std::string_view bytes, bool is_first_of_client);
 
-/// Adds a frame. A payload that is too long is cut.
+/// Adds a frame. Cuts a payload that is too long.
 void add_frame(std::string& out, const Frame& frame);
 
 /// Adds the bytes of a number of any type, little-endian.

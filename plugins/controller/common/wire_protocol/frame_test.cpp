@@ -28,7 +28,7 @@ std::string bytes_of(T... numbers) {
 
 using Byte = std::uint8_t;
 
-/// What a stream hands on of some bytes: frames, and how many bytes of garbage.
+/// Returns the frames that a stream finds in the bytes, and the number of bytes of garbage.
 std::vector<std::string> frames_in(std::string_view bytes, std::size_t* garbage = nullptr) {
   std::vector<std::string> frames;
   while (!bytes.empty()) {
@@ -150,8 +150,8 @@ TEST(BinaryDialogue, RefusesWhatItDoesNotUnderstandAndLeavesOutWhatIsBroken) {
   EXPECT_EQ(b.answers, b.messages);
 }
 
-/// The bytes of the code block behind `label`: two hexadecimal digits each; what stands behind two blanks explains
-/// them.
+/// Returns the bytes of the code block after `label`: two hexadecimal digits each; text after two blanks is an
+/// explanation.
 std::string bytes_in_readme(const std::string& label) {
   const std::string text = test::text_of(README);
   const std::size_t at = text.find(label + "\n\n");

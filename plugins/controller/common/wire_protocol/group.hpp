@@ -10,13 +10,13 @@
 
 namespace muro::wire {
 
-/// Who sets something, and when.
+/// The client that sets numbers, and the instant.
 struct Origin {
   std::uint32_t client = 0;
   std::int64_t time = 0;  ///< ns
 };
 
-/// Numbers that clients read, and set, together. All throw Fault where the group is not read or set in this way. [step]
+/// Numbers that clients read and set together. All functions throw Fault when the group does not allow the call. [step]
 class Group {
  public:
   explicit Group(std::string name) : name_(std::move(name)) {}
@@ -25,14 +25,14 @@ class Group {
   virtual ~Group() = default;
 
   const std::string& name() const { return name_; }
-  virtual std::size_t size() const = 0;  ///< numbers; known from start() on
-  /// Adds what `info` says of the group, in fields behind its name, each after a blank.
+  virtual std::size_t size() const = 0;  ///< number of values; known from start() on
+  /// Adds the group's fields of an `info` reply, without the name, each after a blank.
   virtual void describe(Quantity quantity, std::string& out) const = 0;
-  /// Fills in the numbers as they are now.
+  /// Fills in the present values.
   virtual void read(Quantity quantity, std::vector<double>& out) const = 0;
-  /// Sets all of them, or throws and sets none. They are finite.
+  /// Sets all values, or throws and sets none. The values are finite.
   virtual void set(Quantity quantity, std::span<const double> values, Origin origin) = 0;
-  /// Takes back what was set.
+  /// Withdraws the values that were set.
   virtual void stop() = 0;
 
  private:

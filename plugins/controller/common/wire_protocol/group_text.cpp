@@ -10,7 +10,7 @@ namespace muro::wire {
 
 namespace {
 
-constexpr std::size_t most_groups = 255;  // their places are a byte of the binary protocol
+constexpr std::size_t most_groups = 255;  // the place of a group is one byte in the binary protocol
 constexpr std::size_t longest_name = 64;
 
 GroupText read_group(std::string_view text) {

@@ -8,17 +8,17 @@
 
 namespace muro::wire {
 
-/// What a scenario says about a group: "arm=shoulder,elbow".
+/// A group as a scenario writes it: "arm=shoulder,elbow".
 struct GroupText {
   std::string name;
-  std::vector<std::string> members;  ///< as given
+  std::vector<std::string> members;  ///< the names as given
 };
 
-/// Whether it is made of letters, digits, `_`, `-` and `.`, at most 64 of them.
+/// Whether the text consists of letters, digits, `_`, `-` and `.`, at most 64 of them.
 bool is_name(std::string_view text);
 inline constexpr char name_rule[] = "letters, digits, `_`, `-` and `.`, at most 64 of them";
 
-/// Reads the parameter `groups`; names differ. Throws muro::Error. [setup]
+/// Reads the parameter `groups`; all names are different. Throws muro::Error. [setup]
 std::vector<GroupText> read_groups(std::span<const std::string_view> texts);
 
 }  // namespace muro::wire

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Requests that are random, and requests with random changes.
+// Random requests, and requests with random changes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int message_count = 100'000;
 
-/// Random bytes, or a request with up to four bytes changed, left out or put in.
+/// Random bytes, or a request with up to four bytes changed, removed or added.
 class Messages {
  public:
   Messages(std::vector<std::string> requests, std::string_view letters)
@@ -47,7 +47,7 @@ class Messages {
   std::string letters_;
 };
 
-/// Sends all in one stream of bytes, cut anywhere; steps in between. Returns how many frames or lines it was.
+/// Sends all messages as one stream of bytes, cut anywhere, with steps in between. The service must still answer.
 void expect_dialogue_goes_on(const Protocol& protocol, Messages messages, const std::string& question,
                              const std::string& answer_begin) {
   Bench b(protocol);
@@ -68,7 +68,7 @@ void expect_dialogue_goes_on(const Protocol& protocol, Messages messages, const 
     longest = std::max(longest, bytes.size());
     if (messages.random() % 16 == 0) b.run(int(messages.random() % 8));
     b.sent.clear();
-    if (!b.disconnected.empty()) {  // too much behind a long wait
+    if (!b.disconnected.empty()) {  // too many messages after a long wait
       b.service.disconnected(1);
       b.service.connected(1);
       b.disconnected.clear();

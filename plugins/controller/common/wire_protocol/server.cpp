@@ -8,7 +8,7 @@ namespace muro::wire {
 namespace {
 
 constexpr stream::Limits limits{.output_bytes = 2 << 20};
-/// Of output that waits, above which reports are dropped: the rest is for replies.
+/// Limit of waiting output (bytes) for reports: above it reports are dropped. The rest of the buffer is for replies.
 constexpr std::size_t most_for_reports = 1 << 20;
 
 }  // namespace
@@ -46,7 +46,7 @@ bool Server::serve(const Step& step) {
         service_->received(event->client, event->bytes);
         break;
       case stream::Event::Kind::disconnected:
-        is_forgotten_ = service_->client_count() == 1;  // with its last client, what a stream owes is forgotten
+        is_forgotten_ = service_->client_count() == 1;  // what a stream owes is dropped when its last client leaves
         service_->disconnected(event->client);
         is_forgotten_ = false;
         break;

@@ -12,22 +12,22 @@
 
 namespace muro::wire {
 
-/// One item of a controller with its stream.
+/// One item of a controller, with its stream.
 class Server final : private Outlet {
  public:
-  /// `name`: of the stream, "rover_0/joints". [setup]
+  /// `name`: name of the stream, "rover_0/joints". [setup]
   Server(Connector& connector, std::uint32_t item, const std::string& name, const Protocol& protocol);
   ~Server() = default;
 
-  /// What it serves; see Service. `first_report`: Hz. [setup]
+  /// Sets the groups to serve; see Service. `first_report`: Hz. [setup]
   void set_groups(std::string title, std::vector<std::unique_ptr<Group>> groups, double first_report);
   void open();  ///< [start]
   void restored();
   void finish() { stream_.finish(); }
 
-  /// Answers what is due. [step]
+  /// Sends the answers that are due. [step]
   void begin(const Step& step);
-  /// Takes what has come in; in lockstep waits for one message, while the client owes one. False: nothing has. [step]
+  /// Takes received messages; in lockstep waits for one while the client owes one. False: there was none. [step]
   bool serve(const Step& step);
   bool is_lockstep() const { return !stream_.address().lockstep.empty(); }
   const Service& service() const { return *service_; }
@@ -43,7 +43,7 @@ class Server final : private Outlet {
   const Protocol& protocol_;
   stream::Stream stream_;
   std::optional<Service> service_;
-  bool is_forgotten_ = false;  ///< lockstep knows nothing of the messages that are through now
+  bool is_forgotten_ = false;  ///< whether lockstep no longer counts the messages that are answered now
 };
 
 }  // namespace muro::wire

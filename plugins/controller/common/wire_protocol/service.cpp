@@ -12,9 +12,9 @@ namespace muro::wire {
 
 namespace {
 
-// What a client may send behind a `wait`; who sends more is disconnected.
+// Limits for messages after a `wait`; a client that sends more is disconnected.
 constexpr std::size_t most_behind = 1024, most_bytes_behind = 1 << 18;
-/// ns: a time of so many periods may end so much behind the run of the controller, of rounding.
+/// Tolerance for rounded periods, ns: a wait that ends at most this much after the time of a step is over in that step.
 constexpr std::int64_t rounding = 1;
 
 }  // namespace
@@ -146,7 +146,7 @@ bool Service::carry_out(Session& s, Request& request) {
         if (!request.names_group || request.group == i) groups_[i]->stop();
       break;
     case Verb::wait:
-      state_of(request.group, request.quantity);  // it can be read
+      state_of(request.group, request.quantity);  // throws when it cannot be read
       s.due = now_ + request.duration;
       s.waiting = std::move(request);
       return false;
@@ -167,7 +167,7 @@ void Service::start_report(Session& s, const Request& request) {
     add_number(text, std::round(1e6 / dt_) / 1e6);
     throw Fault{FaultCode::out_of_range, text.append(" Hz, the rate of the controller")};
   }
-  state_of(request.group, request.quantity);  // it can be read
+  state_of(request.group, request.quantity);  // throws when it cannot be read
   s.report = {.tag = {0, request.tag.is_wide},
               .group = request.group,
               .quantity = request.quantity,

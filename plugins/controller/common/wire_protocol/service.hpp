@@ -14,13 +14,13 @@
 
 namespace muro::wire {
 
-/// Where a service's replies go.
+/// Receives the replies of a service.
 class Outlet {
  public:
   virtual void send(std::uint32_t client, std::string_view reply) = 0;
-  /// It may be lost where the client is slow.
+  /// Sends a report. It may be lost when the client is slow.
   virtual void send_report(std::uint32_t client, std::string_view report) = 0;
-  /// A message that was received is answered for good, or needs no answer.
+  /// Reports that a received message was answered completely, or needs no answer.
   virtual void answered() = 0;
   virtual void disconnect(std::uint32_t client) = 0;
 
@@ -28,23 +28,23 @@ class Outlet {
   ~Outlet() = default;
 };
 
-/// Answers clients: from messages and time to replies. Each message gets one reply, in the order of messages; what
-/// comes behind a `wait` is carried out when that is over.
+/// Answers clients: turns messages and time into replies. Each message gets one reply, in the order of the messages.
+/// Messages after a `wait` are carried out when the wait is over.
 class Service {
  public:
-  /// `title`: with which `info` begins, "joints 1".
+  /// `title`: first words of the reply to `info`, "joints 1".
   Service(const Protocol& protocol, std::string title, std::vector<std::unique_ptr<Group>> groups, Outlet& outlet);
-  /// Hz at which clients get the first group unasked, until they say something else; 0: not.
+  /// Rate (Hz) of the first group that clients get without a request, until they set a report; 0: none.
   void set_first_report(double rate) { first_report_ = rate; }
-  /// Throws Error where a group has more numbers than a reply has room for. [start]
+  /// Throws Error when a group has more numbers than a reply can hold. [start]
   void check_sizes() const;
 
-  /// A step at `time` (ns) begins; the next one is `dt` s later. Answers what is due.
+  /// Begins a step at `time` (ns); the next step is `dt` s later. Sends the answers that are due.
   void begin_step(std::int64_t time, double dt);
   void connected(std::uint32_t client);
   void received(std::uint32_t client, std::string_view message);
   void disconnected(std::uint32_t client);
-  /// Time has jumped before the next step: who waits is answered then, and reports count from there.
+  /// Handles a jump of time before the next step: waiting clients are answered then, and reports count from there.
   void time_was_set() { is_time_set_ = true; }
 
   bool is_connected(std::uint32_t client) const;
@@ -58,16 +58,16 @@ class Service {
     Quantity quantity = Quantity::standard;
     double period = 0;  ///< ns; 0: none
     std::int64_t begin = 0;
-    std::uint64_t count = 0;  ///< since `begin`
+    std::uint64_t count = 0;  ///< reports since `begin`
     std::int64_t due() const { return begin + std::int64_t(period * double(count + 1)); }
   };
   struct Session {
     std::uint32_t client = 0;
     std::optional<Request> waiting;
-    std::int64_t due = 0;  ///< ns, of `waiting`
+    std::int64_t due = 0;  ///< end of `waiting`, ns
     std::deque<std::string> behind;
     std::size_t bytes_behind = 0;
-    bool is_ended = false;  ///< it is to be disconnected
+    bool is_ended = false;  ///< whether it is to be disconnected
     Report report;
   };
 

@@ -12,7 +12,7 @@
 
 namespace muro::wire {
 
-/// Numbers from -10 to 10.
+/// A group of numbers from -10 to 10.
 class FakeGroup final : public Group {
  public:
   FakeGroup(std::string name, std::size_t size) : Group(std::move(name)), values_(size) {}
@@ -36,7 +36,7 @@ class FakeGroup final : public Group {
   std::vector<double> values_;
 };
 
-/// A service with the groups `arm` of two numbers and `gripper` of one, at 100 Hz, and what it sends.
+/// A service at 100 Hz with the groups `arm` of two numbers and `gripper` of one. Keeps the bytes that it sends.
 struct Bench final : Outlet {
   explicit Bench(const Protocol& protocol, double first_report = 0) : service(protocol, "bench 1", groups(), *this) {
     service.set_first_report(first_report);
@@ -44,14 +44,14 @@ struct Bench final : Outlet {
     service.connected(1);
   }
 
-  /// To client 1; returns what it hears at once.
+  /// Sends a message of client 1; returns the bytes that the client gets at once.
   std::string ask(std::string_view message) {
     sent.clear();
     ++messages;
     service.received(1, message);
     return sent[1];
   }
-  /// What client 1 hears in the next steps.
+  /// Returns the bytes that client 1 gets in the next steps.
   std::string run(int steps = 1) {
     sent.clear();
     for (int i = 0; i < steps; ++i) service.begin_step(now += 10'000'000, 0.01);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A line for each request and each reply, in fields between blanks; see plugins/controller/joints/README.md.
+// A line for each request and each reply, with fields between blanks; see plugins/controller/joints/README.md.
 #include <algorithm>
 #include <cmath>
 
@@ -35,7 +35,7 @@ class Fields {
   explicit Fields(std::string_view line) { split_fields(line, all_); }
   bool empty() const { return next_ == all_.size(); }
   std::string_view take() { return all_[next_++]; }
-  /// `usage`: how the request is written.
+  /// `usage`: syntax of the request.
   std::string_view require(const char* usage) {
     if (empty()) throw Fault{FaultCode::wrong_fields, std::string("a field is missing: ").append(usage)};
     return take();
@@ -76,7 +76,7 @@ Quantity find_quantity(std::string_view text) {
   return Quantity(found - std::begin(quantity_names));
 }
 
-/// "[GROUP [QUANTITY]]", to the end of the line.
+/// Reads "[GROUP [QUANTITY]]" up to the end of the line.
 void read_place(Fields& fields, std::span<const std::string> groups, const char* usage, Request& out) {
   if ((out.names_group = !fields.empty())) out.group = find_group(fields.take(), groups);
   if (!fields.empty()) out.quantity = find_quantity(fields.take());

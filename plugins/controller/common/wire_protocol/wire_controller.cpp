@@ -10,7 +10,7 @@ namespace muro::wire {
 
 namespace {
 
-/// In lockstep, messages that a step takes before time goes on all the same.
+/// Limit for rounds of messages in a step of lockstep; after that time goes on.
 constexpr int most_rounds = 100'000;
 
 }  // namespace
@@ -51,7 +51,7 @@ std::span<const Phase> WireController::phases() const {
   return whole;
 }
 
-/// In lockstep, time stands until every client waits for something that takes time.
+/// In lockstep, time stands still until every client waits for something that takes time.
 void WireController::step(const Step& step, Range) {
   for (const auto& s : servers_) s->begin(step);
   const bool is_lockstep = !servers_.empty() && servers_.front()->is_lockstep();

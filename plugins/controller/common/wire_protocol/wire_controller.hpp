@@ -14,7 +14,7 @@
 
 namespace muro::wire {
 
-/// The parameters that all these controllers have. `groups`: what its doc says. `name`: the default of `name`.
+/// Parameters that all these controllers have. `groups`: text that describes the groups. `name`: default of `name`.
 constexpr std::array<Parameter, 5> wire_parameters(std::string_view groups, std::string_view name) {
   return {
       stream::stream_parameter().required(),
@@ -39,9 +39,9 @@ class WireController : public Algorithm {
  protected:
   explicit WireController(std::string title) : title_(std::move(title)) {}
 
-  /// What clients of an item read and set; one group at least. [setup]
+  /// Returns the groups that clients of an item read and set, at least one. [setup]
   virtual std::vector<std::unique_ptr<Group>> groups_of(Connector& c, std::uint32_t item) = 0;
-  /// Called when all messages of this step are through. [step]
+  /// Called after all messages of this step. [step]
   virtual void end_step(const Step& step) { static_cast<void>(step); }
   const Service& service(std::uint32_t item) const { return servers_[item]->service(); }
 
@@ -52,7 +52,7 @@ class WireController : public Algorithm {
   const std::string title_;
   double first_report_ = 0;
   CallNotes* notes_ = nullptr;
-  std::vector<std::unique_ptr<Server>> servers_;  ///< one an item
+  std::vector<std::unique_ptr<Server>> servers_;  ///< one for each item
 };
 
 }  // namespace muro::wire

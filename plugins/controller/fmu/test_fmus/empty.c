@@ -2,7 +2,7 @@
 /* A library that is no FMU. */
 int nothing;
 
-#ifdef WANTS_PYTHON /* of the program that loads it, as FMUs that run Python do */
+#ifdef WANTS_PYTHON /* from the program that loads it, as FMUs that run Python do */
 extern int _Py_NoneStruct;
 const void* none(void) { return &_Py_NoneStruct; }
 #endif

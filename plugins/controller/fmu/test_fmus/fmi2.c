@@ -94,7 +94,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real size, fmi2Boolean
   me->wants_end = false;
   switch (model_step(&me->now, time, size, &me->reached)) {
     case DISCARDED:
-      model_move(&me->now, me->reached); /* FMI 2 leaves it in the middle */
+      model_move(&me->now, me->reached); /* FMI 2 leaves the state in the middle */
       return fmi2Discard;
     case ENDED:
       me->wants_end = true;

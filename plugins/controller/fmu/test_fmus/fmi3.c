@@ -8,7 +8,7 @@ typedef struct {
   fmi3LogMessageCallback log;
   fmi3InstanceEnvironment host;
   bool may_return_early;
-  bool is_configuring, is_configured; /* configuration mode, and what comes behind it */
+  bool is_configuring, is_configured; /* in configuration mode, and after it */
 } instance;
 
 static void say(instance* c, fmi3Status status, const char* text) {
@@ -49,7 +49,7 @@ void fmi3FreeInstance(fmi3Instance c) {
   free(c);
 }
 
-/* Structural parameters are set in configuration mode alone. */
+/* Structural parameters are set only in configuration mode. */
 fmi3Status fmi3EnterConfigurationMode(fmi3Instance c) {
   instance* me = c;
   if (me->is_configuring || me->is_configured) return fmi3Error;
@@ -102,9 +102,9 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance c) {
   return fmi3OK;
 }
 fmi3Status fmi3Terminate(fmi3Instance c) { return c ? fmi3OK : fmi3Error; }
-fmi3Status fmi3Reset(fmi3Instance c) { return c ? fmi3Error : fmi3OK; /* so that it is made anew */ }
+fmi3Status fmi3Reset(fmi3Instance c) { return c ? fmi3Error : fmi3OK; /* so that a new instance is made */ }
 
-/* Value references from 100 on: a number of each type, in and out are one; 200: a vector; 210: bytes. */
+/* Value references from 100: a number of each type, the same for input and output; 200: a vector; 210: bytes. */
 #define ACCESS(NAME, TYPE, READ, WRITE)                                                                            \
   fmi3Status fmi3Get##NAME(fmi3Instance c, const fmi3ValueReference vr[], size_t n, TYPE values[], size_t count) { \
     const model* m = &((instance*)c)->now;                                                                         \
@@ -187,7 +187,7 @@ fmi3Status fmi3DoStep(fmi3Instance c, double time, double size, fmi3Boolean no_s
   *last_time = time + size;
   double reached = 0;
   switch (model_step(&me->now, time, size, &reached)) {
-    case DISCARDED: /* FMI 3 leaves it as it was */
+    case DISCARDED: /* FMI 3 leaves the state unchanged */
       return fmi3Discard;
     case ENDED:
       *terminate = true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The model of the FMUs of the tests: decays with closed forms, a controller, a way through for every type, and faults
- * on demand. A communication step carries it from `time` to `time` + `size`. */
+/* The model of the FMUs of the tests: decays with closed forms, a controller, an input that is passed to an output for
+ * every type, and faults on demand. A communication step advances it from `time` to `time` + `size`. */
 #pragma once
 
 #include <math.h>
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { INTERNAL_STEPS = 100 }; /* a second */
+enum { INTERNAL_STEPS = 100 }; /* per second */
 
 enum fault {
   FAULT_NONE,
@@ -36,16 +36,16 @@ enum fault {
 };
 
 typedef struct {
-  double reals[32]; /* by value reference */
+  double reals[32]; /* index: value reference */
   int64_t integers[32];
   bool booleans[32];
   char label[32];
   double time;
   int64_t internal_steps;
   bool is_paused;  /* it has returned early at `fault_at` */
-  int32_t pending; /* how often it is to say that the step is still being done */
-  int32_t child;   /* a process that it has started, which would live on */
-  /* FMI 3 alone */
+  int32_t pending; /* number of answers that the step is not complete */
+  int32_t child;   /* a process that it has started, which would continue on its own */
+  /* only for FMI 3 */
   float f32;
   int64_t i64;
   uint64_t u64;
@@ -70,7 +70,7 @@ enum {
   GAIN,  /* 1/s */
   GOAL,  /* m */
   FAULT,
-  FAULT_TIME,   /* s: from when on there is the fault */
+  FAULT_TIME,   /* s: begin of the fault */
   LARGEST_STEP, /* s: larger ones are discarded */
   ANGLE,        /* deg */
   TURN,         /* deg/s: -angle / 1 s */
@@ -84,7 +84,7 @@ enum {
   BOOL_OUT,
   CHOICE_IN,
   CHOICE_OUT,
-  STEP_END,    /* s: time + size as it was told */
+  STEP_END,    /* s: time + size of the call */
   AS_IT_IS,    /* structural: bool_out is bool_in, not its opposite */
   LENGTH = 99, /* structural: of vector_in */
 };
@@ -93,7 +93,7 @@ enum outcome { DONE, DISCARDED, FAILED, BROKEN, ENDED, EVENT, EARLY };
 
 static volatile uintptr_t model_nowhere = 8;
 
-/* Where there is only one in a process. */
+/* For FMUs that allow only one instance in a process. */
 static int model_instances;
 #ifdef ONLY_ONE
 #define MODEL_MAY_BE_MADE (model_instances == 0)
@@ -120,7 +120,7 @@ static inline void model_outputs(model* m) {
   m->integers[CHOICE_OUT] = m->integers[CHOICE_IN];
 }
 
-/* With a name that the C library has, too, and for all to see. */
+/* A visible function with a name that the C library has, too. */
 #ifdef OPEN_STEP
 __attribute__((visibility("default"))) int step(const char* string, const char* place) {
   (void)string, (void)place;
@@ -138,7 +138,7 @@ static inline void model_move(model* m, double end) {
   m->time = m->reals[TIME] = end;
 }
 
-/* `reached`: how far it got, where that is not the end. */
+/* `reached`: time that it reached, when that is not the end. */
 static inline enum outcome model_step(model* m, double time, double size, double* reached) {
   const double end = time + size;
   const bool is_due = end >= m->reals[FAULT_TIME];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Wants another motion for its robot from second `from` on. */
+ * Commands another motion for its robot from second `from` on. */
 #include "muro_controller.h"
 
 static const muro_port outputs[] = {{"motion.level.target", "1", 1, MURO_PORT_INTEGER}};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Drives in circles of alternating sense, at a speed that comes from the seed, and fails on demand. */
+ * Drives in circles of alternating sense. The speed depends on the seed. Fails on demand. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

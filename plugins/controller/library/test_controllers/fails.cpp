@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Drives ahead at 1 m/s, and in step 3 of robot `a` does what its argument `does` says; `when=create`: at once;
-// `always=1`: also after it has begun anew.
+// Drives ahead at 1 m/s. In step 3 of robot `a` it does what its argument `does` says. `when=create`: at once;
+// `always=1`: also after a restart.
 #include <unistd.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ void recurse() {
   volatile char first = 1;
   deeper(&first);
 }
-void allocate() {  // as C does, without a look at what it gets
+void allocate() {  // as C code that does not check the result
   for (;;) std::memset(std::malloc(1 << 20), 1, 1 << 20);
 }
 void allocate_by_new() {
@@ -62,14 +62,14 @@ void sleep_long() { sleep(100); }
 void close_all() {
   for (int descriptor = 3; descriptor < 1024; ++descriptor) close(descriptor);
 }
-/// At the begin of all files that are open.
+/// Writes to the begin of all open files.
 void write_to_all() {
   const std::string bytes(1 << 16, '\xff');
   for (int descriptor = 3; descriptor < 1024; ++descriptor)
     if (pwrite(descriptor, bytes.data(), bytes.size(), 0) < 0) continue;
 }
 void tell_process() { std::printf("process %d\n", int(getpid())); }
-/// Starts a process that would live on.
+/// Starts a process that would continue on its own.
 void start_another() {
   const pid_t other = fork();
   if (other != 0) return void(std::printf("process %d\n", int(other)));

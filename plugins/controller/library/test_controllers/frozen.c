@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Control code as the first header of ABI 1 has it, with a copy of its structs: it must go on working as it is. */
+ * Control code built with the first header of ABI 1, with a copy of its structs. It must continue to work. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -59,7 +59,7 @@ static int steer(void* block, const step* now, char* error, size_t error_size) {
   return 0;
 }
 
-/* behind the table lies what muro must not read */
+/* muro must not read the data behind the table */
 static const struct {
   table first;
   uint64_t behind[16];

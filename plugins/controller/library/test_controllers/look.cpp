@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Logs what its ports read, and numbers what its outputs write.
+// Logs the values of its inputs, and writes 1, 2, 3 and so on to its outputs.
 #include <cstdio>
 
 #include "muro_controller.hpp"

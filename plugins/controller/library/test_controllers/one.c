@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * A controller that does nothing, of which each part can be replaced by one that is wrong. */
+ * A controller that does nothing. Each part can be replaced by a wrong one. */
 #include "muro_controller.h"
 
 #ifndef TABLE

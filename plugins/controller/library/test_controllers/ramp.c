@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Moves joints steadily, by 0.5 rad/s; tells their speed as well where it is built so. */
+ * Moves joints steadily, by 0.5 rad/s; also commands their speed when it is built so. */
 #include "muro_controller.h"
 
 #ifdef WITH_VELOCITY

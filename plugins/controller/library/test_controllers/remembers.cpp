@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Control code with memory of its own: drives at the mean of what it has remembered, and tells of itself.
+// Control code with its own memory: drives at the mean of the remembered values, and reports its counts.
 #include <atomic>
 #include <numeric>
 #include <vector>

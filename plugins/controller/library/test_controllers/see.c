@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Shows what it reads: vx is the first range, vy the last, vz the number of columns, wx the smaller angle. */
+ * Writes what it reads: vx is the first range, vy the last, vz the number of columns, wx the smaller angle. */
 #include "muro_controller.h"
 
 static const muro_port inputs[] = {{"ranges", "m", 0, 0}, {"laser.columns", "1", 1, 0}, {"angle", "rad", 1, 0}};

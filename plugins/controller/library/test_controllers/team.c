@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Steers two robots along x to where the other one is. */
+ * Steers two robots along x, each to the place of the other. */
 #include "muro_controller.h"
 
 static const muro_port inputs[] = {{"poses", "m", 14, 0}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "muro_controller.hpp"
 
-/// The least that a class has.
+/// The smallest class that the wrapper accepts.
 struct Least {
   static constexpr const char* name = "least";
   static constexpr const char* version = "1.0.0";
