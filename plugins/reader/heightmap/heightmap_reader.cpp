@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads the file of a heightmap as a model of one body that does not move.
+// Reads a heightmap file as a model of one body that does not move.
 #include "muro/heightmap.hpp"
 #include "muro/plugin.hpp"
 #include "muro/vocabulary.hpp"
