@@ -56,8 +56,7 @@ TEST(LevelRules, HandOverWhereRobotsComeNear) {
   EXPECT_EQ(s.level(), 1u);
 }
 
-/// Returns the time (s) at which the level becomes 1, or -1 if it does not within 4 s. The ball moves at 0.5 m/s along
-/// x from 0.
+/// Returns the time (s) at which the level becomes 1, or -1 after 4 s. The ball moves along x at 0.5 m/s, from x = 0.
 double time_of_change(Ruled& s) {
   for (int k = 0; k < 400; ++k) {
     s.run_for(0.01);
