@@ -28,7 +28,7 @@ struct TreeLink {
 /// Places of the state of a link: offsets, in numbers, from the state of the robot's first link (see RobotState).
 struct StateOffsets {
   std::ptrdiff_t pose = 0, twist = 0;
-  std::ptrdiff_t position = 0, velocity = 0;  ///< of its joint
+  std::ptrdiff_t position = 0, velocity = 0;  ///< state of its joint
 
   friend bool operator==(const StateOffsets&, const StateOffsets&) = default;
 };

@@ -18,7 +18,7 @@ struct Drive {
 };
 
 struct Drives {
-  std::vector<Drive> of_joint;                        ///< one per joint
+  std::vector<Drive> of_joint;                        ///< one for each joint
   std::vector<std::pair<int, std::string>> left_out;  ///< actuators without a counterpart, each with the reason
   bool any = false;                                   ///< whether any joint has a drive
 };

@@ -16,7 +16,7 @@ namespace muro::mjcf {
 /// A height field as a shape: a heightmap file, or a box if it is flat.
 struct PlacedHeights {
   std::string path;  ///< absolute; empty: a box
-  Vec3 size;         ///< as Shape::size
+  Vec3 size;         ///< see Shape::size
   Pose pose;         ///< in the frame of its geom
   double error = 0;  ///< m: largest difference of a node from MuJoCo, which reads 16-bit pictures with 8 bits
 };

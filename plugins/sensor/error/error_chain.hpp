@@ -44,8 +44,8 @@ class ErrorChain {
 
   /// Inputs of one sample.
   struct Sample {
-    std::uint64_t seed = 0;                ///< of the run
-    std::uint64_t index = 0;               ///< of the sample
+    std::uint64_t seed = 0;                ///< seed of the run
+    std::uint64_t index = 0;               ///< index of the sample
     std::span<const double> incidence{};   ///< rad, of each ray, or empty
     const Vec3* specific_force = nullptr;  ///< m/s^2, for g-sensitivity, or null
   };

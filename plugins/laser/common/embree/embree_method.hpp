@@ -62,7 +62,7 @@ class Embree final : public scanner::Method {
   std::vector<MeshInstance> mesh_instances_;
   heightmap::Store heightmaps_;
   std::vector<BodyShape> heightmap_shapes_;
-  std::vector<Heightmap> heightmap_surfaces_;  ///< of heightmap_shapes_, in the frames of the shapes
+  std::vector<Heightmap> heightmap_surfaces_;  ///< surfaces of heightmap_shapes_, in the frames of the shapes
   UserGeometry scenery_, robots_;
   std::vector<std::int32_t> robot_of_;  ///< robot of each geometry of the scene
   std::vector<ObjectId> object_of_;     ///< object of each geometry of the scene

@@ -28,7 +28,7 @@ struct DevicePose {
 
 /// One <sensor> that is being read.
 struct SensorReading {
-  Fields& fields;  ///< of <sensor>
+  Fields& fields;  ///< children of <sensor>
   std::string type;
   std::string name;  ///< name of the subsystem
   std::string mounted_on;

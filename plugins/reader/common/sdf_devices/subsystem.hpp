@@ -58,8 +58,8 @@ struct PartNames {
 
 /// The subsystems that are made of one <sensor> or <plugin> of a file.
 struct Device {
-  std::string owner;                  ///< in messages: "sensor `lidar`"
-  model_file::FileLocation location;  ///< of its element
+  std::string owner;                  ///< name in messages: "sensor `lidar`"
+  model_file::FileLocation location;  ///< location of its element
   std::vector<Subsystem> subsystems;  ///< empty if muro has no counterpart
   std::string unused = {};            ///< elements of a plugin that change nothing
 
