@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of a few bodies at known places against the equations of the pinhole camera.
+// Pictures of a few bodies at known places, compared with the equations of the pinhole camera.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ Shape painted(Shape shape, double red, double green, double blue) {
   return shape;
 }
 
-/// A camera on a robot without shapes, and things around it.
+/// A camera on a robot without shapes, and objects around it.
 struct Studio : test::Scene {
   ObjectId camera;
   double focal = 0.5 * width / std::tan(0.5);  ///< px
@@ -52,12 +52,12 @@ struct Studio : test::Scene {
   ObjectId label(std::uint32_t column, std::uint32_t row) {
     return world().values(camera, keys::camera_labels)[row * width + column];
   }
-  /// 0..255
+  /// Returns red, green, blue, 0..255.
   Vec3 color(std::uint32_t column, std::uint32_t row) {
     const std::uint8_t* p = &world().values(camera, keys::camera_image)[3 * (row * width + column)];
     return {double(p[0]), double(p[1]), double(p[2])};
   }
-  /// Mean column and row, in pixels from the corner, of what has this label; and how many pixels.
+  /// Returns the mean column and row of the pixels with this label, in pixels from the corner, and their number.
   std::pair<Eigen::Vector2d, int> middle(ObjectId object) {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     int count = 0;
@@ -86,9 +86,9 @@ TEST(ACamera, SeesAPlaneAtItsDistanceInEveryPixel) {
     }
 }
 
-/// A ball of the angular radius a at an angle t from the axis is seen as an ellipse with half axes f sin a cos a / q
-/// along the radius of the picture and f sin a / sqrt q across, its middle at f sin t cos t / q, with q = cos^2 t -
-/// sin^2 a.
+/// A ball with the angular radius a at an angle t from the axis is seen as an ellipse. Its half axes are f sin a cos a
+/// / q along the radius of the picture and f sin a / sqrt q across, its middle is at f sin t cos t / q, with q = cos^2
+/// t - sin^2 a.
 TEST(ACamera, SeesABallAsTheEllipseThatThePinholeMakesOfIt) {
   const double radius = 0.25;
   for (const Vec3& at : {Vec3(2, 0, 0), Vec3(2, 0.5, 0.3), Vec3(1.7, -0.5, -0.3), Vec3(4, 1.2, -1)}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ground from the files of heightmaps, as a camera sees it.
+// Ground from heightmap files, seen by a camera.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int pixels = 100;
 
-/// A camera with a field of view of 90 degrees and no shadows, and what it looks at.
+/// A camera with a field of view of 90 degrees and no shadows, and the objects in view.
 struct Outdoors : test::Scene {
   ObjectId camera;
   test::ScratchFolder folder;
@@ -24,7 +24,7 @@ struct Outdoors : test::Scene {
     const RobotView& carrier = add("carrier", test::tree_of([](RobotBuilder& b) { b.base("body"); }), at);
     camera = add_sensor_object(carrier, "camera", carrier.base());
   }
-  /// Around the origin, with a height of 0 to 1 of size.z.
+  /// Returns a heightmap around the origin, with heights of 0 to 1 of size.z.
   Shape heightmap(std::uint32_t nodes, const Vec3& size, const std::function<double(double, double)>& height) {
     std::vector<std::uint16_t> values;
     for (std::uint32_t row = nodes; row-- > 0;)
@@ -108,7 +108,7 @@ TEST(AHeightmapInAPicture, IsLitAsATiltedPlateIs) {
 }
 
 TEST(AHeightmapInAPicture, IsSmoothOverItsCells) {
-  // a ball's cap with cells of 2 m: colours change little from pixel to pixel, without facets
+  // the cap of a ball with cells of 2 m: colours change little from pixel to pixel, without visible facets
   Outdoors s({{0, 0, 30}, looking_down});
   s.put("cap", s.heightmap(17, {32, 32, 16}, [](double x, double y) { return std::sqrt(625 - x * x - y * y) - 10; }));
   s.shoot();

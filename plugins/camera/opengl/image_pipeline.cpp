@@ -24,10 +24,10 @@ const std::array<float, 256>& light_table() {
   return lights;
 }
 
-/// Random draws from here on are for the noise of values.
+/// First number of the random draws for the noise of values.
 constexpr std::uint32_t value_noise_draws = 1U << 30;
 
-/// value_of by a table, exact enough for integers.
+/// Returns value_of from a table, exact enough for integers.
 float encode(double light) {
   static const std::vector<float> values = [] {
     std::vector<float> v(65536);
@@ -84,7 +84,7 @@ void ImagePipeline::load(std::span<const std::uint8_t> rgb, const LensMap& lens)
   }
 }
 
-/// First along rows, then along columns; the outermost pixels are repeated beyond the sides.
+/// Blurs along rows, then along columns. The outermost pixels are repeated beyond the sides.
 void ImagePipeline::blur() {
   blurred_.resize(light_.size());
   const auto pass = [&](const std::vector<float>& from, std::vector<float>& to, std::uint32_t length,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the light that reaches the sensor to the values of an image.
+// Computes the values of an image from the light that reaches the sensor.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace muro::camera {
 
 struct ImageSettings {
-  double exposure = 0;    ///< stops: light times 2^exposure
+  double exposure = 0;    ///< stops: light is multiplied by 2^exposure
   double vignetting = 0;  ///< 0..1: strength of the cos^4 law, which darkens the image off its axis
   double blur = 0;        ///< px, standard deviation of the Gaussian
   double noise = 0;       ///< standard deviation of the noise added to each value; 1: the greatest value
@@ -26,7 +26,7 @@ class ImagePipeline {
  public:
   ImagePipeline(const render::Camera& camera, const ImageSettings& settings);
 
-  /// Reads an image (sRGB) of the same size, or a larger one as it is seen through a lens.
+  /// Reads an image (sRGB) of the same size, or a larger one that is seen through a lens.
   void load(std::span<const std::uint8_t> rgb);
   void load(std::span<const std::uint8_t> rgb, const LensMap& lens);
   /// Applies exposure, vignetting, blur and noise; writes sRGB.
@@ -38,11 +38,11 @@ class ImagePipeline {
   ImageSettings settings_;
   std::uint32_t width_, height_;
   std::vector<float> light_, blurred_;  ///< red, green, blue of each pixel
-  std::vector<float> gain_;             ///< of each pixel
-  std::vector<float> kernel_;           ///< of the blur, from its centre outwards
+  std::vector<float> gain_;             ///< for each pixel
+  std::vector<float> kernel_;           ///< weights of the blur, from its centre outwards
 };
 
-/// From a value of sRGB (0..255) to linear light (0..1), and back (IEC 61966-2-1).
+/// Converts a value of sRGB (0..255) to linear light (0..1), and back (IEC 61966-2-1).
 float light_of(std::uint8_t value);
 double value_of(double light);
 

@@ -10,7 +10,7 @@ namespace {
 
 const Random noise(1, 2, 3);
 
-/// A grey picture of so much light, processed.
+/// Returns a processed grey picture with this value in all pixels.
 std::vector<std::uint8_t> processed(const render::Camera& camera, const ImageSettings& settings, std::uint8_t value) {
   ImagePipeline pipeline(camera, settings);
   std::vector<std::uint8_t> rgb(std::size_t(3) * camera.width * camera.height, value);
@@ -56,7 +56,7 @@ TEST(ImagePipeline, BlursAnEdgeToTheIntegralOfAGaussian) {
     pipeline.load(rgb);
     pipeline.process(noise, rgb);
     for (std::uint32_t column = 20; column < 40; ++column) {
-      const double x = column - 29.5;  // pixels beyond the edge, in the middle of the pixel
+      const double x = column - 29.5;  // pixels beyond the edge, at the middle of the pixel
       const double expected = 0.5 * (1 + std::erf(x / (sigma * std::sqrt(2.0))));
       EXPECT_NEAR(double(light_of(rgb[3 * (10 * 60 + column)])), expected, sigma < 1 ? 0.03 : 0.01) << column;
     }

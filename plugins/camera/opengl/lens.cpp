@@ -26,7 +26,7 @@ Eigen::Vector2d Distortion::undistorted(const Eigen::Vector2d& target) const {
     Eigen::Matrix2d jacobian;
     jacobian.col(0) = (distorted(p + dx) - distorted(p - dx)) / (2 * step);
     jacobian.col(1) = (distorted(p + dy) - distorted(p - dy)) / (2 * step);
-    if (jacobian.determinant() <= 1e-6) break;  // beyond where the lens folds the picture over
+    if (jacobian.determinant() <= 1e-6) break;  // here the lens folds the picture over
     p -= jacobian.inverse() * error;
   }
   const bool found = (distorted(p) - target).norm() < 1e-7;

@@ -21,19 +21,19 @@ struct Distortion {
 
   bool is_none() const { return k1 == 0 && k2 == 0 && p1 == 0 && p2 == 0 && k3 == 0; }
   Eigen::Vector2d distorted(const Eigen::Vector2d& p) const;
-  /// The point that is seen at `p`, by Newton's method; not a number where the lens sees none there.
+  /// Returns the point that is seen at `p`, by Newton's method; not a number if the lens sees none there.
   Eigen::Vector2d undistorted(const Eigen::Vector2d& p) const;
 };
 
-/// For each pixel of an image through a lens, its position in the image of a pinhole camera.
+/// The position of each pixel of an image through a lens in the image of a pinhole camera.
 struct LensMap {
-  render::Camera pinhole;  ///< as `camera`, but with a larger image
+  render::Camera pinhole;  ///< `camera` with a larger image
   struct Position {
     float column = -1, row = -1;  ///< whole numbers are centres of pixels; negative: the lens sees nothing there
   };
-  std::vector<Position> positions;  ///< of the pixels of the image, row by row
+  std::vector<Position> positions;  ///< positions of the pixels of the image, row by row
 
-  /// `camera`: of the image through the lens. Throws muro::Error where this needs a pinhole image of more than
+  /// `camera`: camera of the image through the lens. Throws muro::Error if the pinhole image needs more than
   /// `max_pixels` along a side.
   static LensMap of(const render::Camera& camera, const Distortion& lens, std::uint32_t max_pixels);
 };

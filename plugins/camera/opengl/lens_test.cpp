@@ -6,7 +6,7 @@
 namespace muro::camera {
 namespace {
 
-/// Of a cheap wide-angle camera, as OpenCV's calibration gives them.
+/// Distortion of a cheap wide-angle camera, as OpenCV's calibration gives it.
 constexpr Distortion webcam{-0.35, 0.15, 0.001, -0.0008, -0.03};
 
 TEST(ALens, BendsRaysAsBrownsEquationsSay) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures on surfaces, and the materials of mesh files, as a camera sees them.
+// Pictures on surfaces, and the materials of mesh files, seen by a camera.
 #include <gtest/gtest.h>
 #include <png.h>
 
@@ -10,7 +10,7 @@
 namespace muro {
 namespace {
 
-/// Four quarters, rows from the top: red, green; blue, white.
+/// Writes a picture of four quarters, rows from the top: red, green; blue, white.
 std::string quarters(const test::ScratchFolder& folder) {
   constexpr std::uint32_t side = 16;
   std::vector<std::uint8_t> rgb;
@@ -31,7 +31,7 @@ std::string quarters(const test::ScratchFolder& folder) {
   return path;
 }
 
-/// What a camera at (0, 0, 1) sees of something straight ahead, in the middles of its four quarters.
+/// A camera at (0, 0, 1), and the colours that it sees in the middles of the four quarters of an object straight ahead.
 struct Studio : test::Scene {
   ObjectId camera;
   std::string warnings;
@@ -56,7 +56,7 @@ struct Studio : test::Scene {
     build();
     run_for(0.005);
   }
-  /// Which of "red", "green", "blue", "white" a pixel is.
+  /// Returns the colour of a pixel: "red", "green", "blue" or "white".
   std::string color(std::uint32_t column, std::uint32_t row) {
     const std::uint8_t* p = &world().values(camera, keys::camera_image)[3 * (row * 100 + column)];
     const int most = std::max({p[0], p[1], p[2]}), least = std::min({p[0], p[1], p[2]});
@@ -99,7 +99,7 @@ TEST(APictureOnABox, IsLeftOutWhereItClaimsMorePixelsThanThereCanBe) {
   const test::ScratchFolder folder;
   Studio s;
   Shape box = Shape::box({2, 2, 2});
-  // a head of PNG: 20000 x 16 pixels of four bytes
+  // the head of a PNG file: 20000 x 16 pixels of four bytes
   box.texture = s.world().intern(
       folder.file("huge.png", "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\x4e\x20\0\0\0\x10\x08\x06\0\0\0\0\0\0\0"s));
   s.look_at(box, {{3, 0, 1}, Quat::Identity()});
@@ -137,7 +137,7 @@ TEST(AMesh, ThatIsDrawnForItCollidesAndCannotBeReadIsAnError) {
   }
 }
 
-/// A square of 2 m at x = 0 that looks along -x, in OBJ with its material, or in glTF.
+/// A square of 2 m at x = 0 that faces -x, in OBJ with its material, or in glTF.
 struct Square {
   test::ScratchFolder folder;
 

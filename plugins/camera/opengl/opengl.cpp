@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A pinhole camera by OpenGL (MuRoSimF, Section 4.2); see README.md.
+// A pinhole camera that renders with OpenGL (MuRoSimF, Section 4.2); see README.md.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -22,7 +22,7 @@ namespace {
 using namespace muro;
 using std::numbers::pi;
 
-constexpr double tolerance = 1e-3;  ///< m: by which the polygons that stand for circles may be too small
+constexpr double tolerance = 1e-3;  ///< m, largest error of the polygons that represent circles
 constexpr double no_distortion[] = {0, 0, 0, 0, 0};
 constexpr Parameter parameters[] = {
     integer("width", 640, "pixels in a row").between(1, 8192),
@@ -174,7 +174,7 @@ class Camera final : public Algorithm {
     RobotId ignored_robot = no_robot;
     std::uint64_t random_key = 0;
   };
-  /// Rows that are exposed together, of the drawn image.
+  /// Rows of the drawn image that are exposed together.
   struct Slice {
     std::uint32_t top = 0, rows = 0;
     render::Camera camera;
@@ -205,7 +205,7 @@ class Camera final : public Algorithm {
     devices_.push_back(d);
   }
 
-  /// Where the link is after `seconds` with its present twist.
+  /// Returns the pose of the link after `seconds` with its present twist.
   static Pose predicted(const Pose& pose, const Twist& twist, double seconds) {
     const Quat to_link = pose.orientation.conjugate();
     return constant_twist::advanced(pose, seconds * Vec3(to_link * twist.angular),
@@ -277,8 +277,8 @@ class Camera final : public Algorithm {
     }
   }
 
-  /// The pixel of the drawn image for a pixel of the camera: through a lens, the nearest; past the end where there is
-  /// none.
+  /// Returns the pixel of the drawn image for a pixel of the camera: through a lens the nearest one, or a number past
+  /// the end if there is none.
   std::size_t drawn_pixel_of(std::size_t pixel) const {
     if (!lens_) return pixel;
     const camera::LensMap::Position& at = lens_->positions[pixel];
@@ -295,7 +295,7 @@ class Camera final : public Algorithm {
   }
 
   std::vector<Device> devices_;
-  render::Camera camera_, drawn_camera_;  ///< the drawn image is larger where there is a lens
+  render::Camera camera_, drawn_camera_;  ///< with a lens the drawn image is larger
   std::optional<camera::LensMap> lens_;
   std::optional<camera::ImagePipeline> pipeline_;
   double shutter_ = 0;  ///< s, from the first row to the last

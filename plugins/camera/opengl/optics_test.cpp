@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures through a lens, and by a shutter that takes its time, against their equations.
+// Pictures through a lens, and with a rolling shutter, compared with their equations.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ struct Studio : test::Scene {
   ObjectId label(std::uint32_t column, std::uint32_t row) {
     return world().values(camera, keys::camera_labels)[row * width + column];
   }
-  /// Mean column and row of what is red within so many pixels of a place.
+  /// Returns the mean column and row of the red pixels within `reach` pixels of a place.
   Eigen::Vector2d middle_of_red(const Eigen::Vector2d& near, double reach) {
     const auto image = world().values(camera, keys::camera_image);
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -111,7 +111,7 @@ TEST(ARollingShutter, SlantsAPostThatTheCameraTurnsPast) {
     for (std::uint32_t column = 0; column < width; ++column)
       if (s.label(column, row) == post) sum += column + 0.5, ++count;
     ASSERT_GT(count, 0) << row;
-    const double at = turn * 0.1 - turn * time * (1 - (row + 0.5) / height);  // where the camera looked then
+    const double at = turn * 0.1 - turn * time * (1 - (row + 0.5) / height);  // direction of the camera at that time
     EXPECT_NEAR(sum / count, 100 + s.focal * std::tan(at), 1.2) << "row " << row;
   }
 }

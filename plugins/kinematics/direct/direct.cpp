@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Poses and twists of all bodies of a robot from its base and its joints.
+// Computes the poses and twists of all bodies of a robot from its base and its joints.
 #include "kinematic_tree.hpp"
 #include "muro/plugin.hpp"
 #include "muro/simd/numbers.hpp"
@@ -35,14 +35,14 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-/// A mimic joint that nothing else moves.
+/// A mimic joint that no other algorithm moves.
 struct MimicJoint {
   In<double> leader_position, leader_velocity;
   Out<double> position, velocity;
   double multiplier = 1, offset = 0;
 };
 
-/// What is kept of a robot.
+/// Data of one robot.
 struct DirectRobot {
   std::uint32_t model = 0;  ///< index in Direct::models_
   Range mimics;
@@ -50,7 +50,7 @@ struct DirectRobot {
 
 class Direct final : public PerRobotAlgorithm<DirectRobot> {
  public:
-  /// Neighbours alike go eight at a time.
+  /// Serves neighbouring robots of one model eight at a time.
   void step(const Step&, Range range) override {
     for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
       const std::uint32_t model = robot(i).model;
@@ -64,13 +64,13 @@ class Direct final : public PerRobotAlgorithm<DirectRobot> {
  private:
   static constexpr std::uint32_t lane_width = 8;
 
-  /// Robots with the same structure, whose state lies in memory in the same way.
+  /// The common structure of robots that also have the same layout of their state in memory.
   struct Model {
     KinematicTree tree;
-    std::vector<StateOffsets> offsets;  ///< one a link
+    std::vector<StateOffsets> offsets;  ///< one for each link
     bool operator==(const Model&) const = default;
   };
-  /// Where the state of one link lies; null where there is no joint.
+  /// Addresses of the state of one link; null if there is no joint.
   struct LinkState {
     double* pose = nullptr;
     double* twist = nullptr;
@@ -141,7 +141,7 @@ class Direct final : public PerRobotAlgorithm<DirectRobot> {
   }
 
   std::uint32_t model_index(Model model) {
-    const auto known = std::find(models_.rbegin(), models_.rend(), model);  // mostly the last one
+    const auto known = std::find(models_.rbegin(), models_.rend(), model);  // usually the last one
     if (known != models_.rend()) return std::uint32_t(models_.rend() - known) - 1;
     models_.push_back(std::move(model));
     return std::uint32_t(models_.size() - 1);
@@ -149,7 +149,7 @@ class Direct final : public PerRobotAlgorithm<DirectRobot> {
 
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
   std::vector<Model> models_;
-  std::vector<RobotState> states_;  ///< one a robot
+  std::vector<RobotState> states_;  ///< one for each robot
   PackedLists<MimicJoint> mimics_;
 };
 

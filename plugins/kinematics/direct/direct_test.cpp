@@ -7,7 +7,7 @@
 namespace muro {
 namespace {
 
-/// A pan-tilt head on a mast, a gripper of two fingers of which the first one follows the second, and a bumper.
+/// Returns a pan-tilt head on a mast, a gripper with two fingers (the first one follows the second), and a bumper.
 RobotTree head() {
   return test::tree_of([](RobotBuilder& b) {
     b.base("base");
@@ -43,7 +43,7 @@ RobotTree head() {
 struct Heads : test::Scene {
   explicit Heads(const std::vector<Pose>& starts) {
     for (std::size_t i = 0; i < starts.size(); ++i) add("head_" + std::to_string(i), head(), starts[i]);
-    // moves bases at t = 0; kinematics at 0.01 s sees the result
+    // the motion moves bases at t = 0; kinematics at 0.01 s uses the result
     use("motion.point", 1, all_robots(), {{"joints", "passive"}});
     use("kinematics.direct", 100, all_robots());
     build();

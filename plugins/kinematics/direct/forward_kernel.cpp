@@ -8,7 +8,7 @@ namespace {
 
 using namespace lane;
 
-/// q rotated about the joint's axis, which is given in q's own frame. `half`: of half the angle.
+/// Returns q rotated about the joint's axis (given in q's own frame). `half`: sine and cosine of half the angle.
 template <class S>
 MURO_INLINE Q4<S> rotated(const Q4<S>& q, const TreeLink& link, const Turn<S>& half) {
   const S s = half.s, c = half.c;
@@ -37,7 +37,7 @@ MURO_INLINE V3<S> axis_in_world(const M3<S>& axes, const TreeLink& link) {
   }
 }
 
-/// RobotState of as many robots as S has values; without as many, the first stands in.
+/// RobotState of as many robots as S has values. If there are fewer robots, the first one fills the remaining values.
 template <class S>
 struct States {
   Places<S> base_pose, base_twist;
@@ -54,7 +54,7 @@ struct States {
   }
 };
 
-/// The link from which others are reached.
+/// The link from which its children are computed.
 template <class S>
 struct Parent {
   PoseOf<S> pose;
@@ -80,7 +80,7 @@ void forward_lanes(const TreeLink* links, const StateOffsets* offsets, int link_
   for (int k = 0; k < link_count; ++k) {
     const TreeLink& link = links[k];
     const StateOffsets& at = offsets[k];
-    if (link.parent != parent) {  // neighbours mostly share their parent, or one is that of the other
+    if (link.parent != parent) {  // most neighbours share their parent, or one is the parent of the other
       parent = link.parent;
       from = parent == k ? Parent<S>(pose, twist) : parent == 0 ? base() : link_at(offsets[parent - 1]);
     }
@@ -110,7 +110,7 @@ void forward_lanes(const TreeLink* links, const StateOffsets* offsets, int link_
 
 void forward_kinematics(const TreeLink* links, const StateOffsets* offsets, int link_count, const RobotState* robots,
                         int robot_count) {
-  // Registers hold the state of a link of as many.
+  // Registers hold the state of one link of this many robots.
   constexpr int at_once = vectors::register_bytes >= 64 ? 8 : 4;
   for (int k = 0; k < robot_count; k += at_once) {
     const int left = robot_count - k;

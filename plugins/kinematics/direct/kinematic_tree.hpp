@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The structure of a robot as forward kinematics sees it.
+// The structure of a robot in the form that forward kinematics uses.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct KinematicTree {
 
 inline KinematicTree kinematic_tree(const muro::Rows<muro::Link>& links) {
   KinematicTree tree;
-  std::vector<std::uint32_t> moved_by(links.size(), 0);  // the nearest link upwards that a joint moves, or the base
+  std::vector<std::uint32_t> moved_by(links.size(), 0);  // nearest ancestor that a joint moves, or the base
   std::vector<Pose> in_moved(links.size());              // pose in that link's frame, the link's own joint at 0
   for (std::uint32_t i = 1; i < links.size(); ++i) {
     const muro::Link& link = links[i];

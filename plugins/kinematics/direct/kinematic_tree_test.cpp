@@ -26,7 +26,7 @@ class Draw {
   std::mt19937 engine_;
 };
 
-/// A tree of `n` links with all kinds of joints; a third of the origins is not rotated, as in most models.
+/// Returns a tree of `n` links with all kinds of joints; a third of the origins is not rotated, as in most models.
 std::vector<Link> random_tree(Draw& draw, int n) {
   std::vector<Link> links(1);
   for (int i = 1; i < n; ++i) {
@@ -48,7 +48,7 @@ Isometry3d matrix(const Pose& p) {
   return m;
 }
 
-/// 4 x 4 matrices of all links, one after the other.
+/// Returns the 4 x 4 matrices of all links, one after the other.
 std::vector<Isometry3d> by_matrices(const std::vector<Link>& links, const Pose& base, const std::vector<double>& q) {
   std::vector<Isometry3d> all{matrix(base)};
   for (std::size_t i = 1; i < links.size(); ++i) {
@@ -66,11 +66,11 @@ struct Result {
   std::vector<Twist> twists;
 };
 
-/// Robots of one structure, each with joints of its own.
+/// Robots of one structure, each with its own joint positions.
 struct Team {
   std::vector<Link> links;
-  std::vector<Result> robots;                 ///< link 0: given
-  std::vector<std::vector<double>> q, rates;  ///< one a link
+  std::vector<Result> robots;                 ///< the result of link 0 is given
+  std::vector<std::vector<double>> q, rates;  ///< one for each link
 
   void compute(lane::Isa isa, int at_once) {
     const KinematicTree tree = kinematic_tree(links);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A laser scanner by the method that is the fastest here; see README.md.
+// A laser scanner that uses the fastest method on this machine; see README.md.
 #include "method_selector.hpp"
 #include "plugins/laser/common/scanner/scanner.hpp"
 #ifdef MURO_AUTO_ZBUFFER

@@ -18,7 +18,7 @@ namespace muro::laser_auto {
 
 namespace {
 
-/// State: after a restore the same method is used.
+/// State of the selection: after a restore the same method is used.
 constexpr Key<std::uint32_t> key_method{"laser.method", "1", "1: raycast, 2: zbuffer, 3: embree; 0: not chosen yet"};
 
 constexpr std::string_view names[] = {"", "raycast", "zbuffer", "embree"};
@@ -75,7 +75,7 @@ void MethodSelector::prepare(std::span<const scanner::RaySet> sets) {
   exclude_failing([&](Method& m) { m.prepare(sets); });
 }
 
-/// Excludes the methods for which `work` throws, unless it is the last.
+/// Excludes the methods for which `work` throws; the last remaining method may throw.
 void MethodSelector::exclude_failing(const std::function<void(Method&)>& work) {
   for (std::size_t i = 0; i < candidates_.size();) {
     try {
@@ -106,7 +106,7 @@ double MethodSelector::seconds_of(Method& method, const scanner::Viewpoint& exam
   const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
   std::vector<double> ranges(rays_);
   method.update();
-  method.cast(0, example, ranges, {});  // warm
+  method.cast(0, example, ranges, {});  // warm-up
   double update = 1e9, cast = 1e9, sum = 0;
   for (int i = 0; i < 20 && (i < 3 || sum < 0.02); ++i) {
     const auto start = Clock::now();

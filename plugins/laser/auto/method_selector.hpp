@@ -9,7 +9,7 @@
 
 namespace muro::laser_auto {
 
-/// Uses one of several methods: the one that the user names, or the fastest as measured at the start.
+/// Uses one of several methods: the one that the user names, or the fastest one as measured at the start.
 class MethodSelector final : public scanner::Method {
  public:
   void connect(Connector& c) override;
@@ -30,7 +30,7 @@ class MethodSelector final : public scanner::Method {
     std::string_view name;
     std::unique_ptr<Method> method;
     std::uint32_t number = 0;  ///< value of laser.method
-    double seconds = 0;        ///< for one scan by each scanner
+    double seconds = 0;        ///< time of one scan by each scanner
   };
 
   void exclude_failing(const std::function<void(Method&)>& work);
@@ -41,7 +41,7 @@ class MethodSelector final : public scanner::Method {
 
   std::vector<Candidate> candidates_;
   std::vector<Out<std::uint32_t>> method_;  ///< laser.method of each scanner
-  std::uint32_t fastest_ = 0;               ///< number of the method, as measured by this process; 0: not yet
+  std::uint32_t fastest_ = 0;               ///< number of the method, as measured by this process; 0: not measured yet
   std::uint32_t rays_ = 0;
   Host* host_ = nullptr;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A laser scanner by ray casting with Embree; see README.md.
+// A laser scanner that casts rays with Embree; see README.md.
 #include "plugins/laser/common/embree/embree_method.hpp"
 #include "plugins/laser/common/scanner/scanner.hpp"
 

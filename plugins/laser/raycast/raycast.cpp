@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A laser scanner by exact ray casting; see README.md.
+// A laser scanner that casts rays exactly; see README.md.
 #include "plugins/common/mesh/collision_mesh.hpp"
 #include "plugins/laser/common/raycast/raycast_method.hpp"
 #include "plugins/laser/common/scanner/scanner.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The plugin in the whole simulator: index, poses of links, rates.
+// The plugin in the complete simulator: index, poses of links, rates.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -17,7 +17,7 @@ using test::Scene;
 
 const Inertia unit_inertia{.mass = 1, .ixx = 1, .iyy = 1, .izz = 1};
 
-/// A base of 0.4 m with a mast that carries the scanner 0.3 m above its centre.
+/// Returns a rover: a base of 0.4 m with a mast that carries the scanner 0.3 m above its centre.
 RobotTree rover() {
   return test::tree_of([](RobotBuilder& b) {
     b.base("base");
@@ -45,7 +45,7 @@ struct Yard : Scene {
   ObjectId wall(const std::string& name, const Shape& shape, const Vec3& at) {
     return world().add_scenery(name, {at, Quat::Identity()}, std::span<const Shape>(&shape, 1));
   }
-  /// A robot with a scanner on its mast.
+  /// Adds a robot with a scanner on its mast.
   ObjectId add_rover(const std::string& name, const Pose& start) {
     const RobotView& robot = add(name, rover(), start);
     const ObjectId scanner = add_sensor_object(robot, "scanner", world().object(name + "/mast"));
@@ -63,7 +63,7 @@ struct Yard : Scene {
   ObjectId pillar = no_object;
 };
 
-/// The distance to the inner faces of the yard.
+/// Returns the distance to the inner faces of the yard.
 double to_walls(const Vec3& from, double heading) {
   const double c = std::cos(heading), s = std::sin(heading);
   const double x = c > 0 ? (5 - from.x()) / c : (-5 - from.x()) / c;
@@ -71,7 +71,7 @@ double to_walls(const Vec3& from, double heading) {
   return std::min(x, y);
 }
 
-/// The distance to the pillar, or infinity.
+/// Returns the distance to the pillar, or a very large number.
 double to_pillar(const Vec3& from, double heading) {
   const Eigen::Vector2d to(2 - from.x(), 2 - from.y()), d(std::cos(heading), std::sin(heading));
   const double along = to.dot(d), beside2 = to.squaredNorm() - along * along;
@@ -95,7 +95,7 @@ TEST(LaserRaycast, ReadsTheDistancesOfAYardFromARobotThatDrives) {
   s.world().value(robot.base(), keys::command_twist) = {{0.7, 0, 0}, {0, 0, 0.4}};
   for (int scan = 0; scan < 15; ++scan) {
     s.run_for(scan == 0 ? 0.005 : 0.1);
-    // the latest scan was taken 5 ms before now, when motion had not yet moved on
+    // the latest scan was taken 5 ms ago, before the motion of these 5 ms
     ASSERT_EQ(s.ranges(scanner).size(), 682u);
     const double t = 0.1 * scan, yaw = 0.5 + 0.4 * t, radius = 0.7 / 0.4;  // an exact arc
     const Vec3 at(-2 + radius * (std::sin(yaw) - std::sin(0.5)), -1 - radius * (std::cos(yaw) - std::cos(0.5)), 0.4);
@@ -131,7 +131,7 @@ TEST(LaserRaycast, SeesOtherRobotsWhereTheyAreAndItselfOnlyWhenTold) {
     s.build();
     s.world().value(s.world().find_robot("b")->base(), keys::command_twist) = {{1, 0, 0}, {0, 0, 0}};
     s.run_for(0.55);
-    // masts face each other, 4 m less 0.5 m apart at the last scan; a scanner inside its own mast reads 0
+    // masts face each other, 4 m minus 0.5 m apart at the last scan; a scanner inside its own mast reads 0
     EXPECT_NEAR(s.ranges(a)[0], see_self ? 0 : 3.4, 1e-9);
     EXPECT_NEAR(s.ranges(b)[0], see_self ? 0 : 3.4, 1e-9);
     EXPECT_EQ(s.world().values(a, keys::laser_hits)[0], s.world().object(see_self ? "a/mast" : "b/mast"));
@@ -198,7 +198,7 @@ TEST(LaserRaycast, FeedsAnErrorModel) {
       sum += error * error;
     }
   }
-  const double n = 50 * 200, worth = n * (1 - 0.25) / (1 + 0.25);  // as independent numbers
+  const double n = 50 * 200, worth = n * (1 - 0.25) / (1 + 0.25);  // number of independent numbers
   EXPECT_NEAR(sum / n, 1e-4 + 1e-6 / 12, 5e-4 * std::sqrt(2 / worth));
 }
 
@@ -216,7 +216,7 @@ TEST(LaserRaycast, GivesTheSameReadingsToRobotsInOneInstanceAndAlone) {
   EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << "x is out of reach";
 }
 
-/// Many rovers that drive among each other.
+/// Many rovers that drive between each other.
 struct Crowd : Yard {
   explicit Crowd(std::map<std::string, ParameterInput> parameters) {
     for (int i = 0; i < 40; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A laser scanner by depth images (MuRoSimF, Section 4.1); see README.md.
+// A laser scanner that uses depth images (MuRoSimF, Section 4.1); see README.md.
 #include "plugins/laser/common/scanner/scanner.hpp"
 #include "plugins/laser/common/zbuffer/zbuffer_method.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chooses which of its motions moves a robot, also by how fast the run is on this machine.
+// Chooses which of its motions moves a robot, also by the speed of the run on this machine.
 #include <chrono>
 
 #include "muro/plugin.hpp"
@@ -17,7 +17,7 @@ constexpr Description description{
     .parameters = level::parameters,
     .reads = level::reads,
     .writes = level::writes,
-    .capabilities = allocation_free,  // neither deterministic nor restorable: the clock goes on
+    .capabilities = allocation_free,  // neither deterministic nor restorable: it depends on the machine's clock
 };
 
 class LevelBudget final : public level::RulesAlgorithm {
@@ -43,7 +43,7 @@ class LevelBudget final : public level::RulesAlgorithm {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// How fast the run is, over a quarter of a second of the machine's clock each time.
+  /// Measures the speed of the run, over a quarter of a second of the machine's clock each time.
   void measure(std::int64_t time) {
     const Clock::time_point now = Clock::now();
     const double wall = std::chrono::duration<double>(now - begin_).count();
@@ -53,8 +53,8 @@ class LevelBudget final : public level::RulesAlgorithm {
     begin_time_ = time;
   }
 
-  Clock::time_point begin_{};        ///< of what is measured
-  std::int64_t begin_time_ = 0;      ///< ns, the simulated time then
+  Clock::time_point begin_{};        ///< begin of the measurement
+  std::int64_t begin_time_ = 0;      ///< ns, simulated time at the begin
   std::optional<double> run_speed_;  ///< in units of real time
 };
 

@@ -25,7 +25,7 @@ struct Budgeted : test::Scene {
     build();
   }
   std::uint32_t level() { return world().value(ball->base(), keys::motion_level); }
-  /// Until the first measurement, of a quarter of a second of the machine's clock, is over.
+  /// Runs until the first measurement, of a quarter of a second of the machine's clock, is complete.
   void run_until_measured() {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
     while (std::chrono::steady_clock::now() < end) run_for(0.1);

@@ -10,11 +10,11 @@
 namespace muro {
 namespace {
 
-/// A ball with two motions: `ruled` by rules, and a second ball that motion.point moves.
+/// A ball with two motions, which level.rules chooses, and a second ball that motion.point moves.
 struct Ruled : test::Scene {
   const RobotView *ball, *other;
 
-  /// `add_more`: to the scene, before it is built.
+  /// `add_more`: adds to the scene before it is built.
   explicit Ruled(std::vector<std::string> rules, const Vec3& other_at = {5, 0, 0.1},
                  const std::function<void(World&)>& add_more = {}, double dwell = 0.1) {
     Shape shape = Shape::sphere(0.1);
@@ -56,7 +56,7 @@ TEST(LevelRules, HandOverWhereRobotsComeNear) {
   EXPECT_EQ(s.level(), 1u);
 }
 
-/// At 0.5 m/s along x from 0: the time (s) at which the level becomes 1, or -1 within 4 s.
+/// Returns the time (s) at which the level becomes 1, or -1 after 4 s. The ball moves along x at 0.5 m/s, from x = 0.
 double time_of_change(Ruled& s) {
   for (int k = 0; k < 400; ++k) {
     s.run_for(0.01);
@@ -65,17 +65,17 @@ double time_of_change(Ruled& s) {
   return -1;
 }
 
-/// A solid of the scenery, aside of the path of the ball but for its surface.
+/// Returns a function that adds a solid to the scenery.
 std::function<void(World&)> solid(const Shape& shape, const Pose& pose) {
   return [shape, pose](World& world) { world.add_scenery("rock", pose, std::span<const Shape>(&shape, 1)); };
 }
 
 TEST(LevelRules, MeasureToTheNearestPointOfScenery) {
-  const Quat lying(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()));  // its axis, z, along -y
+  const Quat lying(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()));  // its axis, z, is along -y
   const struct {
     Shape shape;
     Pose pose;
-    double surface;  ///< x, on the path of the ball
+    double surface;  ///< x of the surface on the path of the ball
   } solids[] = {
       {Shape::box({0.2, 20, 2}), {{2, 8, 1}, Quat::Identity()}, 1.9},
       {Shape::sphere(3), {{4.5, 0, 0.1}, Quat::Identity()}, 1.5},
@@ -91,7 +91,7 @@ TEST(LevelRules, MeasureToTheNearestPointOfScenery) {
 }
 
 TEST(LevelRules, TakeAHeightmapAsTheBoxAroundIt) {
-  // from x = 2 on, between 1 and 3 m high
+  // hills from x = 2 on, between 1 and 3 m high
   const test::Hills hills(4, 8, [](double x, double) { return 2 + 0.5 * x; });
   const Shape shape{.kind = ShapeKind::heightmap, .size = {4, 4, 1}};
   const auto add_hills = [&](World& world) {
@@ -115,10 +115,10 @@ std::function<void(World&)> yard(double x, double y, double width, double depth)
 TEST(LevelRules, KnowWhatIsInsideAPlaceAndHowFarItIs) {
   Ruled inside({"near when inside yard", "far when outside yard"}, {50, 0, 0.1}, yard(1, 0, 0.6, 0.4));
   EXPECT_NEAR(time_of_change(inside), 0.7 / 0.5, 0.021);
-  inside.run_for(1.4);  // to 1.3 m and beyond
+  inside.run_for(1.4);  // moves to 1.3 m and beyond
   EXPECT_EQ(inside.level(), 0u) << "it has left the place";
   Ruled near({"near when nearer than 0.5 to yard"}, {50, 0, 0.1}, yard(1, 0.6, 0.6, 0.4));
-  // its nearest corner is at (0.7, 0.4)
+  // the nearest corner is at (0.7, 0.4)
   EXPECT_NEAR(time_of_change(near), (0.7 - 0.3) / 0.5, 0.021);
 }
 

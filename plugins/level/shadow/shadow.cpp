@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a robot and its shadow, which another motion moves by the same commands, have come apart.
+// Measures the distance between a robot and its shadow, which another motion moves by the same commands.
 #include "muro/plugin.hpp"
 #include "muro/toolkit/rotations.hpp"
 

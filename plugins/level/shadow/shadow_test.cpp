@@ -10,7 +10,7 @@ const Inertia light{.mass = 1, .ixx = 0.004, .iyy = 0.004, .izz = 0.004};
 
 RobotTree cube() { return test::single_body(Shape::box({0.2, 0.2, 0.2}), light); }
 
-/// A robot that motion.point moves and its shadow, which forces move; a wall or another robot may stand in the way.
+/// A robot that motion.point moves and its shadow, which forces move. A wall or another robot may be in the way.
 struct Shaded : test::Scene {
   const RobotView *robot, *shadow;
   Shaded() {

@@ -35,13 +35,13 @@ class MeshReader final : public ModelReader {
       const mesh::Hull hull = mesh::convex_hull(mesh.vertices);
       builder.set_array(keys::mesh_corners, std::span<const Vec3>(hull.vertices));
       set_inertia(mesh::solid_inertia(mesh::is_closed(mesh) ? mesh : surface_of(hull), density), builder);
-    } catch (const Error&) {  // a flat mesh has no volume, and its corners are all there is
+    } catch (const Error&) {  // a flat mesh has no volume: only its corners are set
       builder.set_array(keys::mesh_corners, std::span<const Vec3>(mesh.vertices));
     }
   }
 
  private:
-  /// A mesh in millimetres, which a model scales, is a mountain of water before that.
+  /// Clamps the mass, with a warning: a mesh in millimetres is far too heavy before a model scales it.
   static void set_inertia(const Inertia& water, RobotBuilder& builder) {
     const double mass = std::clamp(water.mass, limits::min_mass, limits::max_mass);
     if (mass != water.mass)

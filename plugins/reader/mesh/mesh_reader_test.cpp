@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models of one body from mesh files, against closed forms.
+// Models of one body from mesh files, compared with closed forms.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which bodies of a compiled model are robots, and which are scenery.
+// Finds which bodies of a compiled model are robots and which are scenery.
 #pragma once
 
 #include <set>
@@ -10,29 +10,29 @@
 
 namespace muro::mjcf {
 
-/// Names of parts of a robot, or of objects of a world: what muro's names do not have is `_`.
+/// Unique names of parts of a robot, or of objects of a world. Characters that muro's names may not have become `_`.
 class Names {
  public:
-  /// `wanted`, followed by `suffix` as often as it takes to be unique.
+  /// Returns `wanted`, followed by `suffix` as often as needed to be unique.
   std::string unique(std::string_view wanted, std::string_view suffix = "_");
 
  private:
   std::set<std::string> taken_;
 };
 
-/// The bodies right under the world's, in the order of the file.
+/// Returns the children of the world's body, in the order of the file.
 std::vector<int> top_bodies(const mjModel& m);
-/// A body and all that hang on it, in the order of the file.
+/// Returns a body and all its descendants, in the order of the file.
 std::vector<int> subtree(const mjModel& m, int top);
-/// Whether a body or one that hangs on it has a joint.
+/// Whether a body or one of its descendants has a joint.
 bool can_move(const mjModel& m, int top);
-/// Whether it moves freely in the world.
+/// Whether a body moves freely in the world.
 bool is_free(const mjModel& m, int body);
-/// The pose in the world of a body that no joint moves, or of one as the file shows it.
+/// Returns the pose of a body in the world, at the reference positions of all joints.
 Pose pose_in_world(const mjModel& m, int body);
-/// The name of a body, or "body_3".
+/// Returns the name of a body, or "body_3".
 std::string body_name(const mjModel& m, int body);
-/// The name of a joint, or that of its body with `_joint`.
+/// Returns the name of a joint, or the name of its body with `_joint`.
 std::string joint_name(const mjModel& m, int joint);
 
 }  // namespace muro::mjcf

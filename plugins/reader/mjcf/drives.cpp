@@ -9,7 +9,7 @@ namespace muro::mjcf {
 
 namespace {
 
-/// What an actuator follows, by its gain and bias (MuJoCo documentation, actuator shortcuts).
+/// Returns the mode of an actuator, found from its gain and bias (MuJoCo documentation, actuator shortcuts).
 std::optional<DriveMode> mode_of(const mjModel& m, int actuator) {
   const mjtNum* const gain = m.actuator_gainprm + mjNGAIN * actuator;
   const mjtNum* const bias = m.actuator_biasprm + mjNBIAS * actuator;
@@ -24,7 +24,7 @@ std::optional<DriveMode> mode_of(const mjModel& m, int actuator) {
 
 double largest(const mjtNum* range) { return std::max(std::abs(range[0]), std::abs(range[1])); }
 
-/// What it does to its joint at most (N m or N).
+/// Returns the maximum effort of an actuator on its joint (N m or N).
 double effort_of(const mjModel& m, int actuator, DriveMode mode) {
   double effort = std::numeric_limits<double>::infinity();
   const double gear = std::abs(m.actuator_gear[6 * actuator]);

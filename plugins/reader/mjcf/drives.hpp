@@ -12,19 +12,19 @@ namespace muro::mjcf {
 
 struct Drive {
   DriveMode mode = DriveMode::passive;
-  double effort = std::numeric_limits<double>::infinity();  ///< N m or N, at most
-  int actuator = -1;                                        ///< none
-  double stiffness = 0, damping = 0;                        ///< of a position servo, at the joint
+  double effort = std::numeric_limits<double>::infinity();  ///< maximum, N m or N
+  int actuator = -1;                                        ///< number of the actuator; -1: none
+  double stiffness = 0, damping = 0;                        ///< gains of a position servo, at the joint
 };
 
 struct Drives {
-  std::vector<Drive> of_joint;                        ///< one per joint
-  std::vector<std::pair<int, std::string>> left_out;  ///< actuators, and why
-  bool any = false;                                   ///< some joint has a drive
+  std::vector<Drive> of_joint;                        ///< one for each joint
+  std::vector<std::pair<int, std::string>> left_out;  ///< actuators without a counterpart, each with the reason
+  bool any = false;                                   ///< whether any joint has a drive
 };
 
-/// A motor is a drive by efforts, a position servo one by positions, a velocity servo one by velocities. The first
-/// actuator of a joint counts.
+/// Returns the drives of all joints. A motor becomes an effort drive, a position servo a position drive, a velocity
+/// servo a velocity drive. Only the first actuator of a joint counts.
 Drives drives_of(const mjModel& m);
 
 }  // namespace muro::mjcf

@@ -11,11 +11,11 @@ namespace muro::mjcf {
 
 namespace {
 
-/// How far heights of MuJoCo may be from those of the same file, of the range of heights, which are `range` of white:
-/// it rounds values of 16 bits down to 8, those of the lowest and highest too.
+/// Returns the largest error of MuJoCo's heights by the range of heights in the file. `range`: that range by white.
+/// MuJoCo rounds 16-bit values down to 8 bits, also the lowest and the highest.
 double largest_rounding(double range) { return std::min(2.01 / 255 / range, 0.05); }
 
-/// The files of height fields, in the order of their numbers.
+/// Returns the files of the height fields, in the order of their numbers.
 std::vector<std::string> paths_in(const std::string& canonical, const Source& source) {
   std::vector<std::string> paths;
   model_file::Document document;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Height fields of a compiled model as shapes. MuJoCo's compiler stretches the values of a file to 0..1; muro's
-// heightmaps have them as they are in the file, so that size and origin make up for it.
+// Height fields of a compiled model as shapes. MuJoCo's compiler scales the values of a file to 0..1. muro's heightmaps
+// keep the values of the file, so size and origin of the shape compensate for the difference.
 #pragma once
 
 #include <map>
@@ -13,19 +13,19 @@
 
 namespace muro::mjcf {
 
-/// A height field as a shape: that of a file, or a box where it is flat.
+/// A height field as a shape: a heightmap file, or a box if it is flat.
 struct PlacedHeights {
   std::string path;  ///< absolute; empty: a box
-  Vec3 size;         ///< as Shape::size
+  Vec3 size;         ///< see Shape::size
   Pose pose;         ///< in the frame of its geom
-  double error = 0;  ///< m: how far a node of the file is from MuJoCo's, which reads 8 bits of pictures of 16
+  double error = 0;  ///< m: largest difference of a node from MuJoCo, which reads 16-bit pictures with 8 bits
 };
 
 class HeightFields {
  public:
   HeightFields(const Compiled& compiled, const Source& source);
 
-  /// The height field of a geom; nothing, and why, where it cannot be a shape.
+  /// Returns the height field of a geom. Returns nothing and sets `problem` if it cannot be a shape.
   std::optional<PlacedHeights> of(int geom, std::string& problem);
 
  private:
@@ -33,7 +33,7 @@ class HeightFields {
 
   const mjModel& m_;
   const Source& source_;
-  std::vector<std::string> paths_;  ///< one a height field; empty: it has no file
+  std::vector<std::string> paths_;  ///< one for each height field; empty: it has no file
   struct Known {
     std::optional<PlacedHeights> heights;
     std::string problem;

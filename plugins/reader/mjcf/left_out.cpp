@@ -16,8 +16,8 @@ class Report {
  public:
   Report(const mjModel& m, const Source& source, Problems& problems) : m_(m), source_(source), problems_(problems) {}
 
-  /// The objects of one kind. `what`: "tendons"; `tags`: of the elements that may stand for one; `addresses`: of their
-  /// names.
+  /// Reports the objects of one kind. `what`: "tendons"; `tags`: elements that may define such an object; `addresses`:
+  /// of the names of the objects.
   void list(Severity severity, const char* what, int count, const int* addresses,
             std::initializer_list<const char*> tags, const std::string& end) {
     if (count == 0) return;

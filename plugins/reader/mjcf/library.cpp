@@ -21,13 +21,13 @@ void raise_error(const char* text) { throw LibraryError{text}; }
 thread_local char last_warning[500];
 void keep_warning(const char* text) { std::snprintf(last_warning, sizeof last_warning, "%s", text); }
 
-/// Without these, errors would end the process, and warnings would be written to a file.
+/// Installs handlers. Without them errors would end the process, and warnings would be written to a file.
 void catch_errors() {
   if (!mju_user_error) mju_user_error = &raise_error;
   if (!mju_user_warning) mju_user_warning = &keep_warning;
 }
 
-/// Texts of MuJoCo have several lines, some of them empty.
+/// Joins the lines of a text of MuJoCo; empty lines are dropped.
 std::string in_one_line(const std::string& text) {
   std::string out;
   for (const char c : text)
@@ -39,7 +39,7 @@ std::string in_one_line(const std::string& text) {
   return out;
 }
 
-/// A file in memory that a library writes by its path.
+/// A file in memory, to which a library writes by its path.
 class MemoryFile {
  public:
   MemoryFile() : descriptor_(memfd_create("muro-mjcf", MFD_CLOEXEC)) {}
@@ -63,7 +63,7 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// The model that was compiled last, as MuJoCo writes it; empty where it cannot.
+/// Returns the model that was compiled last, as MuJoCo writes it; empty if MuJoCo cannot write it.
 std::string canonical_text(const mjModel& m) {
   const MemoryFile file;
   char error[1000] = "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MuJoCo's compiler as a library: who owns what it makes, and its errors as texts.
+// MuJoCo's compiler as a library: ownership of its models, and its errors as texts.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -17,19 +17,18 @@ struct ModelDeleter {
 };
 using Model = std::unique_ptr<mjModel, ModelDeleter>;
 
-/// What MuJoCo's compiler makes of a file.
+/// Result of MuJoCo's compiler.
 struct Compiled {
-  Model model;  ///< null: `error` says why
-  std::string
-      canonical;  ///< the file as MuJoCo writes it: one text without includes; of files with meshes or height fields
+  Model model;            ///< null if compilation failed; `error` has the reason
+  std::string canonical;  ///< the file as MuJoCo writes it, without includes; empty without meshes and height fields
   std::string error, warning;
 };
 
-/// Compiles `text`, the contents of a file at `path` (absolute), beside which included files and meshes are found.
+/// Compiles `text`, the contents of a file at `path` (absolute). Included files and meshes are searched relative to it.
 Compiled compile(const std::string& text, const std::string& path);
 
 inline Vec3 vector_of(const mjtNum* v) { return {v[0], v[1], v[2]}; }
-/// Of the compiled model, where it is normalised, or of a text.
+/// Returns a quaternion of the compiled model, which is normalised, or of a text, which is normalised here.
 inline Quat quaternion_of(const mjtNum* q) {
   const Quat quaternion(q[0], q[1], q[2], q[3]);
   if (std::abs(quaternion.squaredNorm() - 1) < 1e-12) return quaternion;
@@ -39,7 +38,7 @@ inline Pose pose_of(const mjtNum* position, const mjtNum* orientation) {
   return {vector_of(position), quaternion_of(orientation)};
 }
 
-/// The name of an object of the model; empty where it has none. `addresses`: such as mjModel::name_bodyadr.
+/// Returns the name of an object of the model; empty if it has no name. `addresses`: such as mjModel::name_bodyadr.
 inline std::string name_of(const mjModel& m, const int* addresses, int id) { return m.names + addresses[id]; }
 
 }  // namespace muro::mjcf

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The numbers of an attribute; `fallback` where it is not there.
+/// Returns the numbers of an attribute; `fallback` if there is no such attribute.
 template <std::size_t n>
 std::array<double, n> numbers(const Element& e, const char* name, std::array<double, n> fallback) {
   const char* const text = e.Attribute(name);
@@ -64,7 +64,7 @@ void Meshes::read_assets(const Element& root, const Source& source) {
     }
 }
 
-/// Bodies and geoms have their numbers in this order.
+/// Visits bodies and geoms in the order of their numbers.
 void Meshes::read_body(const Element& body) {
   for (const Element* e = body.FirstChildElement("geom"); e; e = e->NextSiblingElement("geom")) {
     const Vec3 position = vector_in(*e, "pos", 0);
@@ -97,7 +97,7 @@ std::optional<PlacedMesh> Meshes::of(int geom, std::string& problem) const {
     problem = concat("mesh ", name, " has a refquat and another scale along each axis; apply one of them to the file");
     return std::nullopt;
   }
-  // MuJoCo takes refpos off, turns back by refquat, then scales
+  // MuJoCo subtracts refpos, applies the inverse of refquat, then scales
   const Quat back = asset.turn.conjugate();
   const Pose reference{-asset.scale.cwiseProduct(Vec3(back * asset.reference)), back};
   return PlacedMesh{asset.path, asset.scale, geoms_[std::size_t(geom)] * reference};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Meshes of a compiled model as files: MuJoCo's compiler moves each to its centre and turns it to its principal axes.
-// The model as MuJoCo writes it has them where the file has them.
+// Meshes of a compiled model as files. MuJoCo's compiler moves each mesh to its centre and turns it to its principal
+// axes. The model text that MuJoCo writes keeps the poses of the file.
 #pragma once
 
 #include <optional>
@@ -10,18 +10,18 @@
 
 namespace muro::mjcf {
 
-/// A mesh of a file, as a shape has it.
+/// A mesh file as a shape uses it.
 struct PlacedMesh {
   std::string path;  ///< absolute
   Vec3 scale;
-  Pose pose;  ///< in the frame of the body; to 6 digits, which MuJoCo writes
+  Pose pose;  ///< in the frame of the body, with the 6 digits that MuJoCo writes
 };
 
 class Meshes {
  public:
   Meshes(const Compiled& compiled, const Source& source);
 
-  /// The mesh of a geom; nothing, and why, where it cannot be a shape.
+  /// Returns the mesh of a geom. Returns nothing and sets `problem` if it cannot be a shape.
   std::optional<PlacedMesh> of(int geom, std::string& problem) const;
 
  private:
@@ -35,8 +35,8 @@ class Meshes {
   void read_body(const Element& body);
 
   const mjModel* model_;
-  std::vector<Asset> assets_;  ///< one per mesh
-  std::vector<Pose> geoms_;    ///< as written, one per geom
+  std::vector<Asset> assets_;  ///< one for each mesh
+  std::vector<Pose> geoms_;    ///< as written, one for each geom
   bool complete_ = false;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads robots and worlds from MJCF, MuJoCo's format: service.cpp does it, in the parser process.
+// Reads robots and worlds from MJCF, MuJoCo's format. service.cpp reads them, in the parser process.
 #include "muro/plugin.hpp"
 #include "plugins/common/parser_process/ask.hpp"
 #include "plugins/common/parser_process/builder_calls/replay.hpp"

@@ -9,7 +9,7 @@ namespace {
 
 using test::ScratchFolder;
 
-/// MuJoCo's binary format.
+/// Returns a height field in MuJoCo's binary format.
 std::string binary(std::int32_t rows, std::int32_t columns, const std::vector<float>& values) {
   std::string bytes(8 + 4 * values.size(), '\0');
   std::memcpy(bytes.data(), &rows, 4);
@@ -18,7 +18,7 @@ std::string binary(std::int32_t rows, std::int32_t columns, const std::vector<fl
   return bytes;
 }
 
-/// A geom `hills` in line 4 with this height field, beside a ball that can move.
+/// Returns a file with a geom `hills` of this height field in line 4, and a ball that can move.
 std::string hills_yard(const std::string& field) {
   return "<mujoco><compiler meshdir='land'/>\n<asset>" + field +
          "</asset><worldbody>\n<body name='ball' pos='0 0 5'><freejoint/><geom size='0.1'/></body>\n<geom "
@@ -36,7 +36,7 @@ struct HillyWorld {
   const WorldModel::Scenery& hills() const { return model.scenery().at(0); }
 };
 
-/// The largest distance (m) of a node of the shape from where MuJoCo has it, in the frame of the geom.
+/// Returns the largest distance (m) of a node of the shape from MuJoCo's node, in the frame of the geom.
 double distance_from_mujoco(const Shape& shape, const std::string& path, const std::string& text,
                             const ScratchFolder& folder) {
   const Compiled compiled = compile(text, folder.path("yard.xml"));
@@ -94,7 +94,7 @@ TEST(MjcfHeightField, OfSixteenBitsTellsHowFarMuJoCoIsFromIt) {
   image_file::write_png(path, image_file::Format::grey16, 2, 2, pixels);
   const std::string text = hills_yard("<hfield name='h' file='hills.png' size='2 1 255 0.1'/>");
   const HillyWorld world(text, folder);
-  // 511 is 0.0087 of the highest, and MuJoCo has 1 / 230
+  // 511 is 0.0087 of the highest value; MuJoCo reads 1 / 230
   EXPECT_TRUE(has_line(world.problems, "note 4: the heights of geom `hills` differ by up to 1.1 m"))
       << joined(world.problems);
   const double distance = distance_from_mujoco(world.hills().collisions.at(0), path, text, folder);

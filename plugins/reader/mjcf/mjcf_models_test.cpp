@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What MJCF files become, against MuJoCo's own kinematics of the same file.
+// Robots from MJCF files, compared with MuJoCo's own kinematics of the same file.
 #include <random>
 
 #include "muro/toolkit/joint_drives.hpp"
@@ -17,7 +17,7 @@ struct Data {
   mjData* d;
 };
 
-/// A humanoid: nested default classes, several joints a body with anchors of their own, fromto, degrees, references.
+/// A humanoid: nested default classes, several joints for one body with different anchors, fromto, degrees, references.
 const std::string humanoid = R"(<mujoco model="humanoid">
 <compiler angle="degree" inertiafromgeom="true"/>
 <default>
@@ -122,7 +122,7 @@ TEST(MjcfModels, ActuatorsAreDriveModesAndOtherJointsPassive) {
   EXPECT_EQ(mode("knee"), DriveMode::position);
   EXPECT_EQ(mode("telescope"), DriveMode::velocity);
   EXPECT_EQ(mode("hip_x"), DriveMode::passive);
-  // kp of a length that is gear times the position
+  // the servo acts on gear times the position, so kp is multiplied by gear twice
   EXPECT_EQ(robot.constants("knee", keys::joint_drive_stiffness).at(0), 20 * 3 * 3);
   EXPECT_EQ(robot.constants("knee", keys::joint_drive_damping).at(0), 0);
   EXPECT_TRUE(robot.constants("telescope", keys::joint_drive_stiffness).empty());
@@ -157,7 +157,7 @@ TEST(MjcfModels, GeomsAreShapesWithFullLengthsAndSurfaces) {
 const std::string obj = "v 1 0 0\nv 1.3 0 0\nv 1 0.2 0\nv 1.1 0.1 0.5\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 TEST(MjcfModels, MeshesStandWhereTheFileHasThem) {
-  // the compiler moves a mesh to its centre and turns it: its vertices in the world, against those of the file
+  // the compiler moves a mesh to its centre and turns it: compares its vertices in the world with those of the file
   const test::ScratchFolder folder;
   std::filesystem::create_directory(folder.path("meshes"));
   folder.file("meshes/tet.obj", obj);
@@ -203,7 +203,7 @@ TEST(MjcfModels, ABaseThatJointsHoldHangsOnALinkWorld) {
 
 TEST(MjcfModels, CamerasAreLinksThatLookAlongX) {
   const Robot robot = robot_of(humanoid);
-  // it looks along x of the torso, with z up
+  // the camera looks along x of the torso, with z up
   EXPECT_TRUE(near(robot.pose("eye"), {{0.1, 0, 0.3}, Quat::Identity()}));
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What users are told of files that are no models, and of what is left out.
+// Messages about files that are no models, and about features that are left out.
 #include "reading_testing.hpp"
 
 namespace muro::mjcf {
 namespace {
 
-/// The one problem of a text of which no robot can be made.
+/// Returns the only problem of a text from which no robot can be made.
 std::string refusal_of(const std::string& text) {
   const Robot robot = robot_of(text);
   EXPECT_FALSE(robot.tree.usable()) << text;
@@ -39,7 +39,7 @@ TEST(MjcfProblems, WhatMuJoCoRefusesIsToldWithItsLine) {
 }
 
 TEST(MjcfProblems, AttributesOfLaterVersionsAreLeftOut) {
-  // each goes by itself; lines stay, and what looks alike elsewhere is left alone
+  // each attribute is removed alone; line numbers stay, and similar text elsewhere is not changed
   const Robot robot = robot_of(R"(<mujoco>
 <option integrator="implicitfast"
   ls_iterations='5' timestep="0.001"><flag eulerdamp="disable"/></option>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Through the plugin and the parser process.
+// Reads files through the plugin and the parser process.
 #include "core/simulation.hpp"
 #include "plugins/common/parser_process/builder_calls/record.hpp"
 #include "plugins/common/parser_process/builder_calls/replay.hpp"
@@ -12,7 +12,7 @@ namespace {
 using parser_process::Reader;
 using parser_process::Writer;
 
-/// All that a record can hold.
+/// Everything that a record can hold.
 const std::string everything = R"(<mujoco><worldbody><body name="a"><freejoint/><geom size="0.1"/>
 <body name="b"><joint name="j" axis="0 1 0" ref="0.5" range="-1 1" limited="true" stiffness="1"/><geom type="box" size="1 1 1"/></body>
 <body name="c"><joint name="k" type="slide"/><geom size="0.1"/></body></body></worldbody>
@@ -63,7 +63,7 @@ TEST(MjcfProcess, GarbledRecordsAreErrors) {
   EXPECT_GT(errors, int(whole.size()) / 2);
 }
 
-/// The message of a model that the plugin reads from a file.
+/// Returns the message about a model that the plugin reads from a file.
 std::string message_of(const std::string& path) {
   Simulation simulation(test::plugins());
   try {
@@ -76,7 +76,7 @@ std::string message_of(const std::string& path) {
 
 TEST(MjcfProcess, FilesThatEndTheParserEndNothingElse) {
   const test::ScratchFolder folder;
-  // buffers of 16 GB; a file that does not end
+  // buffers of 16 GB, and a file that does not end
   EXPECT_NE(
       message_of(folder.file("huge.xml", "<mujoco><size nstack='2000000000' njmax='2000000'/><worldbody/></mujoco>")),
       "");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Damaged files, through the plugin and the parser process: each is read, or refused with one message.
+// Damaged files, read through the plugin and the parser process. Each is read, or refused with one message.
 #include <random>
 
 #include "core/simulation.hpp"
@@ -87,7 +87,7 @@ TEST(MjcfRobustness, DamagedFilesAreReadOrRefused) { check_damaged_files(100); }
 TEST(SlowMjcfRobustness, ManyDamagedFilesAreReadOrRefused) { check_damaged_files(5000); }
 
 TEST(MjcfRobustness, AChainOfManyBodiesIsReadInOrder) {
-  // as deep as XML may nest here
+  // the deepest nesting of XML that is allowed here
   std::string open, close;
   for (int i = 0; i < 90; ++i) {
     open += concat("<body name='b", i, "' pos='0 0 0.1'>", i > 0 ? "<joint axis='0 1 0'/>" : "<freejoint/>",

@@ -14,7 +14,7 @@ namespace {
 
 using model_file::concat;
 
-/// Attributes of later versions (MuJoCo documentation, changelog), and what is lost without them.
+/// Attributes of newer versions (MuJoCo documentation, changelog), and what is lost without them.
 struct NewerAttribute {
   std::string_view element, attribute, loss;
 };
@@ -91,7 +91,7 @@ struct Stretch {
   std::size_t begin, end;
 };
 
-/// Where `attribute`="..." stands in the start tags of `element`; with its name, or its value alone.
+/// Finds `attribute`="..." in the start tags of `element`: with its name, or the quoted value only.
 std::vector<Stretch> find(const std::string& text, const std::string& element, const std::string& attribute,
                           bool value_alone) {
   std::vector<Stretch> found;
@@ -140,7 +140,7 @@ bool leave_out(std::string& text, const NewerAttribute& newer, model_file::Probl
   return true;
 }
 
-/// The integrator `implicitfast` becomes `implicit`, which does more.
+/// Replaces the integrator `implicitfast` by `implicit`, which has more terms.
 bool replace_integrator(std::string& text, model_file::Problems& problems) {
   for (const Stretch& s : find(text, "option", "integrator", true)) {
     constexpr std::string_view newer = "implicitfast", known = "implicit";
@@ -155,7 +155,7 @@ bool replace_integrator(std::string& text, model_file::Problems& problems) {
   return false;
 }
 
-/// Later versions take `range` without `limited` as a limit, where the file does not say otherwise.
+/// Makes each `range` without `limited` a limit, as newer versions do, unless the file sets `autolimits`.
 bool limit_ranges(std::string& text, model_file::Problems& problems) {
   if (text.find("autolimits") != text.npos) return false;
   const std::size_t root = text.find("<mujoco"), end = root == text.npos ? root : text.find('>', root);

@@ -17,8 +17,8 @@ Vec3 gravity_of(const mjModel& m) {
   return (m.opt.disableflags & mjDSBL_GRAVITY) != 0 ? Vec3(Vec3::Zero()) : vector_of(m.opt.gravity);
 }
 
-/// What stands still in a file, as objects of a world: each geom of the world's body, and each body that no joint moves
-/// with all that hang on it.
+/// An object of a world that does not move: a geom of the world's body, or a child of the world's body without joints,
+/// with all its descendants.
 struct SceneryObject {
   std::string name;
   std::vector<int> geoms;
@@ -40,7 +40,7 @@ std::vector<SceneryObject> scenery_of(const mjModel& m, Names& names) {
   return found;
 }
 
-/// Tells what of a file is not part of the one robot that was taken.
+/// Reports the parts of a file that do not belong to the robot that was taken.
 void tell_rest(const mjModel& m, int taken, const Source& source, Shapes& shapes, Problems& problems) {
   std::vector<std::string> rest;
   int first = 0;
@@ -103,7 +103,7 @@ class WorldMaker {
   }
 
   void add_model(int top) {
-    // who builds a robot reports to it: a model that nobody uses as a robot need not be one
+    // problems go to the robot's builder: a model that is not used as a robot may be invalid
     RobotBuilder& robot = builder_.model(names_.unique(body_name(m_, top)), base_pose(m_, top));
     Problems own = Problems::reported_to(robot);
     build_robot({m_, source_, drives_, true}, top, shapes_, robot, own);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For tests: robots and worlds from texts, and what was said about them.
+// For tests: robots and worlds from texts, and the problems reported for them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ inline std::string joined(const Lines& lines) {
   return all;
 }
 
-/// A robot, as it was read.
+/// A robot as it was read.
 struct Robot {
   RobotTree tree;
   Lines problems;
@@ -75,7 +75,7 @@ struct Robot {
       if (f.joint >= 0) names.push_back(name(f.joint));
     return names;
   }
-  /// Of a link in the base's frame, with joints by name at these positions and all others at 0.
+  /// Returns the pose of a link in the base's frame. `positions`: of joints by name; all others are at 0.
   Pose pose(const std::string& link, const std::map<std::string, double>& positions = {}) const {
     std::vector<Pose> poses;
     for (const auto& f : tree.links()) {
@@ -96,7 +96,7 @@ inline Robot robot_of(const std::string& text, const std::string& path = "/nowhe
   return robot;
 }
 
-/// A file whose world is `bodies`, with `more` elements behind it.
+/// Returns a file with the world `bodies`, followed by the elements `more`.
 inline std::string mujoco(const std::string& bodies, const std::string& more = "") {
   return "<mujoco>\n<worldbody>\n" + bodies + "\n</worldbody>\n" + more + "\n</mujoco>\n";
 }

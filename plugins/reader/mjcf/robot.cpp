@@ -17,7 +17,7 @@ namespace {
 
 constexpr double no_length = 1e-12;  // m
 
-/// MuJoCo's cameras look along -z with y up, sensors of muro along x with z up (REP-103).
+/// MuJoCo's cameras look along -z with y up, muro's sensors look along x with z up (REP-103).
 const Quat camera_turn(Mat3((Mat3() << 0, -1, 0, 0, 0, 1, -1, 0, 0).finished()));
 
 class RobotMaker {
@@ -86,7 +86,7 @@ class RobotMaker {
     if (pose.orientation.vec().norm() > 1e-15) builder_.rotation(pose.orientation);
   }
 
-  /// A body is moved by its joints, one after the other, each about an axis through its own anchor.
+  /// Adds a body with its joints. They act one after the other, each about an axis through its own anchor.
   void add_body(int body) {
     const std::string name = names_.unique(body_name(m_, body), "_body");
     Pose pending = pose_of(m_.body_pos + 3 * body, m_.body_quat + 4 * body);
@@ -99,7 +99,7 @@ class RobotMaker {
       Vec3 anchor = Vec3::Zero();
       if (m_.jnt_type[j] == mjJNT_HINGE) {
         anchor = vector_of(m_.jnt_pos + 3 * j);
-        if (anchor.cross(axis).norm() <= no_length) anchor.setZero();  // on the axis, the body's origin stays
+        if (anchor.cross(axis).norm() <= no_length) anchor.setZero();  // the body's origin does not move
         pending = pending * Pose{anchor, Quat(Eigen::AngleAxisd(-reference, axis))};
       } else if (m_.jnt_type[j] == mjJNT_SLIDE) {
         pending = pending * Pose{-reference * axis, Quat::Identity()};

@@ -8,7 +8,7 @@
 
 namespace muro::mjcf {
 
-/// What robots of one file are made from.
+/// Common source of the robots of one file.
 struct RobotSource {
   const mjModel& model;
   const Source& source;
@@ -16,10 +16,10 @@ struct RobotSource {
   bool in_world;  ///< the file is read as a world
 };
 
-/// The pose of a robot's base in the world: that of its first body, or of the world where joints hold that.
+/// Returns the pose of a robot's base in the world. The base is the first body, or the world if joints hold that body.
 Pose base_pose(const mjModel& m, int top);
 
-/// Builds the tree of bodies under `top`, a body right under the world's.
+/// Builds the tree of bodies with the root `top`, a child of the world's body.
 void build_robot(const RobotSource& from, int top, Shapes& shapes, RobotBuilder& builder, Problems& problems);
 
 }  // namespace muro::mjcf

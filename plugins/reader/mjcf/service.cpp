@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the parser process offers: for mjcf.cpp the calls that build a robot or a world, for motion.mujoco a compiled
+// Services of the parser process: mjcf.cpp gets the calls that build a robot or a world, motion.mujoco gets a compiled
 // model.
 #include "plugins/common/parser_process/service.hpp"
 

@@ -10,9 +10,9 @@ namespace muro::mjcf {
 
 namespace {
 
-/// What MuJoCo draws of geoms with neither a colour nor a material.
+/// Colour that MuJoCo gives geoms with neither a colour nor a material.
 constexpr float plain_grey[] = {0.5f, 0.5f, 0.5f, 1};
-/// The first group that MuJoCo's viewer does not show.
+/// First group that MuJoCo's viewer does not show.
 constexpr int first_hidden_group = 3;
 
 }  // namespace
@@ -89,7 +89,7 @@ void Shapes::add(int number, const Pose& body, const Intern& intern, Solid& soli
     (known == left_out_.end() ? left_out_.emplace_back(problem, std::vector<int>{}) : *known).second.push_back(number);
     return;
   }
-  const bool is_mesh = shape->kind == ShapeKind::mesh;  // its pose is that of the file
+  const bool is_mesh = shape->kind == ShapeKind::mesh;  // the pose is already that of the file
   const Pose geom = is_mesh ? Pose{} : pose_of(m_.geom_pos + 3 * number, m_.geom_quat + 4 * number);
   shape->origin = body * geom * shape->origin;
   shape->surface = surface_of(number);

@@ -11,24 +11,24 @@ namespace muro::mjcf {
 
 using Intern = std::function<TextId(std::string_view)>;
 
-/// What geoms become.
+/// Shapes made of the geoms of a body.
 struct Solid {
   std::vector<Shape> collisions, visuals;
-  std::vector<TextId> materials;  ///< names, of the visuals
+  std::vector<TextId> materials;  ///< names, one for each visual
 };
 
-/// Geoms of a compiled model as shapes. Those that collide with nothing (contype and conaffinity 0) are only seen;
-/// groups from 3 on, which MuJoCo's viewer hides, are not seen.
+/// Geoms of a compiled model as shapes. Geoms that collide with nothing (contype and conaffinity 0) are visuals only.
+/// Geoms of groups from 3 on are not visible, as in MuJoCo's viewer.
 class Shapes {
  public:
   Shapes(const Compiled& compiled, const Source& source);
 
-  /// Adds geom `number`, in a frame in which that of its body has pose `body`. Notes those that have no shape.
+  /// Adds geom `number` to `solid`, or records that it has no shape. `body`: pose of its body in the frame of `solid`.
   void add(int number, const Pose& body, const Intern& intern, Solid& solid);
-  /// Tells, once for each cause, which geoms were left out.
+  /// Reports the geoms that were left out, one message for each cause.
   void report_left_out(Problems& problems) const;
 
-  /// "wheel", or "geom 3 of `chassis`" as text without quotes.
+  /// Returns "wheel", or "geom 3 of `chassis`" as text without quotes.
   std::string name_of_geom(int number) const;
 
  private:
@@ -42,8 +42,8 @@ class Shapes {
   const Source& source_;
   Meshes meshes_;
   HeightFields height_fields_;
-  std::vector<std::pair<std::string, std::vector<int>>> left_out_;  ///< why, and which geoms
-  std::map<int, double> rounded_;                                   ///< geoms whose heights differ from MuJoCo's, by m
+  std::vector<std::pair<std::string, std::vector<int>>> left_out_;  ///< reasons, each with its geoms
+  std::map<int, double> rounded_;                                   ///< difference of a geom's heights from MuJoCo's, m
 };
 
 }  // namespace muro::mjcf

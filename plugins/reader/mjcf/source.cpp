@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a file whose root is another element is, and what to do.
+/// Returns the message for a file with another root element: its format, and what to do.
 std::string problem_of_root(const std::string& root) {
   if (root == "robot")
     return "the file begins with <robot>, so it is URDF and not MJCF; give it a name that ends in .urdf";
@@ -28,7 +28,7 @@ std::string problem_of_root(const std::string& root) {
   return concat("the file begins with <", root, ">; MJCF begins with <mujoco>");
 }
 
-/// Whatever stands under an element, itself first.
+/// Visits an element and all its descendants.
 template <class Visit>
 void each_element(Element& root, Visit visit) {
   std::vector<Element*> stack = {&root};
@@ -46,7 +46,7 @@ std::string attribute(const Element& e, const char* name) {
   return value ? value : "";
 }
 
-/// Adds up the sizes of the files that a document names, and of those that its included files name.
+/// Adds up the sizes of the files that a document names, and of the files that its included files name.
 class FileSizes {
  public:
   explicit FileSizes(fs::path folder) : folder_(std::move(folder)), folders_{folder_} {}
@@ -83,7 +83,7 @@ class FileSizes {
       bytes_ += text.size();
       if (document.parse(text, location, error) && document.root()) add(*document.root());
     } catch (const Error&) {
-      return;  // MuJoCo will say what is wrong with it
+      return;  // MuJoCo reports what is wrong with the file
     }
   }
 
@@ -93,7 +93,7 @@ class FileSizes {
   std::uint64_t bytes_ = 0;
 };
 
-/// The line that a text of MuJoCo names; 0 where there is none.
+/// Returns the line number in a message of MuJoCo; 0 if there is none.
 int line_in(const std::string& text) {
   static const std::regex pattern("[Ll]ine(?: number)? ?=? ?([0-9]{1,8})");
   std::smatch found;
@@ -139,8 +139,8 @@ Location Source::location_of(const std::string& tag, const std::string& name) co
   return found == places_.end() ? Location{} : found->second;
 }
 
-/// MuJoCo takes some 2 kB and 20 us for an element, for meshes what convex hulls take, and the buffers of one
-/// simulation of the model: at most 2 GB.
+/// Sets the limits of memory and time. MuJoCo takes about 2 kB and 20 us for an element, for meshes what convex hulls
+/// take, and at most 2 GB for the buffers of one simulation of the model.
 void Source::allow_for_files() const {
   FileSizes files(folder());
   files.add(*const_cast<model_file::Document&>(document_).root());

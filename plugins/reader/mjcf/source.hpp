@@ -20,15 +20,15 @@ using model_file::Problems;
 
 class Source {
  public:
-  /// The contents of the file at `path` (absolute). False, with a report, where they are no MJCF.
+  /// Takes the contents of the file at `path` (absolute). Reports a problem and returns false if they are not MJCF.
   bool load(std::string bytes, const std::string& path, Problems& problems);
 
-  /// Has MuJoCo compile it, with `more` elements at its end. Nothing, with a report, where MuJoCo refuses.
+  /// Compiles the text with the elements `more` added at its end. Returns no model, with a report, if MuJoCo refuses.
   Compiled compile(Problems& problems, const std::string& more = "") const;
 
   const std::string& path() const { return path_; }
   std::filesystem::path folder() const { return std::filesystem::path(path_).parent_path(); }
-  /// Of the first element `tag` with this name in the file itself; nowhere where it is in an included file or has none.
+  /// Returns the location of the first element `tag` with this name; none if it is in an included file or has no name.
   Location location_of(const std::string& tag, const std::string& name) const;
   /// Whether the values of this height field are written in the file itself.
   bool has_elevation(const std::string& height_field) const { return elevations_.contains(height_field); }

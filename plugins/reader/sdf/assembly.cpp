@@ -7,7 +7,7 @@ namespace muro::sdf {
 
 namespace {
 
-/// False, with the first message, when libsdformat could not resolve something.
+/// Reports the first message and returns false if libsdformat could not resolve something.
 template <class Errors>
 bool is_resolved(const Errors& errors, const FileLocation& location, Problems& problems) {
   if (errors.empty()) return true;

@@ -19,7 +19,7 @@ Vec3 vector_of(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}
   return e && e->HasElement(name) ? e->FindElement(name) : nullptr;
 }
 
-/// The number in a child, if the file has it.
+/// Returns the number in a child if the file states it.
 std::optional<double> number(const ::sdf::ElementPtr& e, const char* name) {
   const ::sdf::ElementPtr found = child(e, name);
   if (!found || !found->GetExplicitlySetInFile()) return std::nullopt;
@@ -128,8 +128,8 @@ class LinkReader {
     turning_resistance(shape.surface, friction, location);
   }
 
-  /// Bullet's rolling friction, and the torsional friction of a patch with an even pressure under a ball, which is
-  /// 3 pi / 16 mu a (SDFormat, torsional friction).
+  /// Sets Bullet's rolling friction, and the torsional friction 3 pi / 16 mu a of a patch with an even pressure under a
+  /// ball (SDFormat, torsional friction).
   void turning_resistance(Surface& surface, const ::sdf::ElementPtr& friction, const FileLocation& location) {
     const ::sdf::ElementPtr torsional = child(friction, "torsional");
     const bool has_patch = torsional && torsional->Get<bool>("use_patch_radius", true).first;

@@ -13,14 +13,14 @@ namespace muro::sdf {
 /// Keeps a text for the life of the simulation.
 using Intern = std::function<TextId(std::string_view)>;
 
-/// What a link is made of.
+/// Inertia and shapes of a link.
 struct LinkBody {
   Inertia inertial;
   std::vector<Shape> collisions, visuals;
-  std::vector<TextId> materials;  ///< names, of the visuals
+  std::vector<TextId> materials;  ///< names, one for each visual
 };
 
-/// `name` stands for the link in messages. Without `movable` inertia is of no interest, and not checked.
+/// Reads a link. `name`: the link in messages. Without `movable` the inertia is not needed and not checked.
 LinkBody body_of(const ::sdf::Link& link, const std::string& name, bool movable, const SourceFiles& sources,
                  const Intern& intern, Problems& problems);
 

@@ -35,8 +35,8 @@ class TreeBuilder {
  private:
   struct Child {
     int body;
-    int joint = -1;   ///< that leads to it, or none:
-    int holder = -1;  ///< the body that holds it
+    int joint = -1;   ///< the joint that leads to it; -1: none
+    int holder = -1;  ///< the body that holds it if there is no joint
   };
 
   const Body& body(int i) const { return a_.bodies[std::size_t(i)]; }

@@ -6,8 +6,8 @@
 
 namespace muro::sdf {
 
-/// Builds the robot, depth first, children in the order of their joints in the file. After an error that makes it no
-/// tree, all bodies are built nevertheless, where they stand.
+/// Builds the robot, depth first, with children in the order of their joints in the file. Bodies to which no joint
+/// leads are fixed to the base at their poses.
 void build(Assembly& assembly, const ::sdf::Model& model, const SourceFiles& sources, RobotBuilder& builder,
            Problems& problems);
 

@@ -19,7 +19,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// Whether an unsupported element has the value that this simulator supports.
+/// Whether an unsupported element has the only value that muro supports.
 bool has_supported_value(const Element& e, const SchemaElement& schema) {
   if (schema.supported_value.empty()) return false;
   std::string value = lower_case(text_of(e));
@@ -38,7 +38,7 @@ std::vector<std::string> supported_names(std::string_view parent) {
   return names;
 }
 
-/// The numbers at the beginning of a text, where there are as many.
+/// Returns the numbers at the beginning of a text; nothing if there are fewer than `count`.
 std::optional<std::vector<double>> first_numbers(const std::string& text, std::size_t count) {
   std::vector<double> values;
   const char* at = text.data();
@@ -55,11 +55,11 @@ std::optional<std::vector<double>> first_numbers(const std::string& text, std::s
   return values;
 }
 
-/// Angles become a quaternion here: the bits of what libsdformat makes of them depend on the processor.
+/// Replaces angles by a quaternion. The bits of the quaternion that libsdformat computes depend on the processor.
 void write_quaternion(Element& pose) {
   std::string error;
   const auto values = model_file::parse_numbers(text_of(pose), 6, error);
-  if (!values) return;  // told before
+  if (!values) return;  // reported before
   const std::string degrees = lower_case(attribute(pose, "degrees"));
   const double unit = degrees == "true" || degrees == "1" ? M_PI / 180 : 1;
   const std::vector<double>& v = *values;
@@ -129,7 +129,7 @@ void Check::section(Element& e, std::string_view as) {
       leaf(*child, *schema);
     }
   }
-  // last, for it may remove the element
+  // the last call, as it may remove the element
   if (!complete(e, as) && e.Parent()) e.Parent()->DeleteChild(&e);
 }
 
@@ -175,7 +175,7 @@ void Check::leaf(Element& e, const SchemaElement& schema) {
       const std::string value = lower_case(text_of(e));
       if (value == "true" || value == "1" || value == "false" || value == "0") return;
       const std::string wrong = concat("<", e.Name(), ">: ", quote(text_of(e)), " is none of true, false, 1, 0");
-      // libsdformat reads these, too
+      // libsdformat also reads these elements
       if (!value.empty() && std::string_view(e.Name()) != "use_parent_model_frame") return error(location_of(e), wrong);
       problems_.warning(location_of(e), wrong + "; it is left out");
       e.Parent()->DeleteChild(&e);
@@ -189,7 +189,7 @@ void Check::leaf(Element& e, const SchemaElement& schema) {
   }
 }
 
-/// As libsdformat reads them: no text is none, and what follows the last number is ignored.
+/// Reads numbers as libsdformat does: an empty text has no number, and text after the last number is ignored.
 void Check::numbers(Element& e, std::size_t count, bool infinite) {
   const std::string text = text_of(e);
   if (infinite && (lower_case(text) == "inf" || lower_case(text) == "-inf" || lower_case(text) == "+inf")) return;
@@ -230,7 +230,7 @@ void Check::remove_unsupported(Element& e, const SchemaElement* schema, std::str
     return;
   }
   const std::string name = e.Name();
-  const bool foreign = name.find(':') != std::string::npos;  // a namespace of another program
+  const bool foreign = name.find(':') != std::string::npos;  // namespace of another program
   const auto* section = e.Parent()->ToElement();
   const std::string element = concat("<", name, "> in <", section ? section->Name() : "", ">");
   if (schema)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// <sensor> of links and joints, <plugin> of models: libsdformat does not see them, and who builds a robot places them.
+// Reads <sensor> of links and joints and <plugin> of models and removes them before libsdformat reads the file.
 #include "assembly.hpp"
 #include "checks.hpp"
 #include "plugins/reader/common/sdf_devices/plugin.hpp"
@@ -9,7 +9,7 @@ namespace muro::sdf {
 
 namespace {
 
-/// What the robot calls the joint of this name that a model has, where it is one that moves.
+/// Returns the robot's name of a joint of a model; nothing if the joint does not move.
 std::optional<std::string> moving_joint(Element& model, const std::string& name) {
   for (const Element* joint : model_file::children(model, "joint"))
     if (attribute(*joint, "name") == name && attribute(*joint, "type") != "fixed") return plain_name(name);

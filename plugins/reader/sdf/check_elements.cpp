@@ -17,10 +17,10 @@ namespace {
 constexpr std::array<std::string_view, 9> joint_types = {"revolute",  "continuous", "prismatic", "fixed",  "universal",
                                                          "revolute2", "ball",       "screw",     "gearbox"};
 
-/// Nothing slides on it.
+/// Friction that replaces friction without limit. Nothing slides on it.
 constexpr double most_friction = 1e6;
 
-/// Of <drake:rotor_inertia> and <drake:gear_ratio>: what the joint feels stays within the range of inertias.
+/// Limit of <drake:rotor_inertia> and <drake:gear_ratio>; it keeps the reflected inertia within the range of inertias.
 constexpr double max_rotor_value = 1e7;
 
 std::vector<double> values_of(const Element* e) {
@@ -31,17 +31,17 @@ std::vector<double> values_of(const Element* e) {
 }  // namespace
 
 void Check::prepare(Element& e, std::string_view section) {
-  // up to SDFormat 1.5 gravity is a matter of <physics>, which is not read
+  // up to SDFormat 1.5 <gravity> is in <physics>, which is not read
   if (section != "world" || source_.version_number() >= 106 || e.FirstChildElement("gravity")) return;
   Element* physics = e.FirstChildElement("physics");
   Element* gravity = physics ? physics->FirstChildElement("gravity") : nullptr;
   if (gravity) e.InsertEndChild(gravity);
 }
 
-/// False when the element is better removed.
+/// Completes an element. Returns false if it has to be removed.
 bool Check::complete(Element& e, std::string_view section) {
   if (section == "world" || section == "model") {
-    // nobody asks for the name of a world, and some are not allowed
+    // the name of a world is not used, and some names are not allowed
     if (section == "world") e.SetAttribute("name", "default");
     if (attribute(e, "name").empty()) {
       if (section == "model") problems_.warning(location_of(e), "a model has no name; write <model name=\"...\">");
@@ -60,7 +60,7 @@ bool Check::complete(Element& e, std::string_view section) {
     for (const char* kind : {"collision", "visual"}) {
       std::set<std::string> used;
       for (Element* part : model_file::children(e, kind)) {
-        // nobody asks for these names
+        // these names are not used
         std::string name = attribute(*part, "name");
         if (name.empty()) name = kind;
         std::replace(name.begin(), name.end(), ':', '_');
@@ -90,7 +90,7 @@ bool Check::complete(Element& e, std::string_view section) {
   return true;
 }
 
-/// A negative coefficient of friction stands for one without limit, which libsdformat does not read.
+/// Replaces a negative coefficient of friction, which means friction without limit. libsdformat does not read it.
 void Check::take_endless(Element& friction) {
   const std::vector<double> value = values_of(&friction);
   if (value.size() != 1 || !(value[0] < 0)) return;
@@ -100,7 +100,7 @@ void Check::take_endless(Element& friction) {
   friction.SetText(model_file::text_of({most_friction}).c_str());
 }
 
-/// Puts the path of the file in place of the name of a picture in a child of `owner`; false where there is none.
+/// Replaces the name of a picture in a child of `owner` by the path of its file. Returns false if there is none.
 bool Check::find_picture(Element& owner, const char* name) {
   Element* map = owner.FirstChildElement(name);
   if (!map) return false;
@@ -149,7 +149,7 @@ bool Check::complete_joint(Element& joint) {
     const char* name = i == 0 ? "axis" : "axis2";
     Element* axis = joint.FirstChildElement(name);
     if (i >= axes) {
-      // libsdformat would take them for a mistake or for something else
+      // libsdformat would report it or misread it
       if (axis) joint.DeleteChild(axis);
       continue;
     }
@@ -190,7 +190,7 @@ bool Check::complete_joint(Element& joint) {
   return true;
 }
 
-/// <drake:rotor_inertia> and <drake:gear_ratio>, as Drake reads them; libsdformat sees neither.
+/// Reads <drake:rotor_inertia> and <drake:gear_ratio> as Drake does. libsdformat does not read them.
 void Check::take_rotor(Element& joint, const std::string& owner, bool has_one_axis) {
   Element *inertia = joint.FirstChildElement("drake:rotor_inertia"),
           *ratio = joint.FirstChildElement("drake:gear_ratio");
@@ -232,7 +232,7 @@ bool Check::complete_shape(Element& e) {
   Element* geometry = e.FirstChildElement("geometry");
   Element* shape = geometry ? geometry->FirstChildElement() : nullptr;
   const Severity lost = std::string_view(e.Name()) == "collision" ? Severity::lost_collision : Severity::warning;
-  // a shape of a kind that is not supported was reported already
+  // an unsupported kind of shape was reported already
   if (!shape) {
     problems_.report(
         lost, location_of(e),
@@ -255,7 +255,7 @@ bool Check::complete_shape(Element& e) {
   return error.empty();
 }
 
-/// Puts the path of the file in place of the name. A shape whose mesh is not found is left out.
+/// Replaces the name of a mesh by the path of its file. Returns false if the mesh is not found: its shape is left out.
 bool Check::find_mesh(const Element& body, Element& uri) {
   const std::string name = text_of(uri);
   const model_file::MeshPath found = model_file::find_mesh(name, source_.folder, sources_.packages());

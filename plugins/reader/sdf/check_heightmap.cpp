@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a heightmap needs: the file of its heights, and a picture.
+// Completes a heightmap: finds the file of its heights, and a picture.
 #include <algorithm>
 
 #include "checks.hpp"
@@ -18,7 +18,7 @@ Vec3 size_of(const Element* size) {
   return values ? Vec3((*values)[0], (*values)[1], (*values)[2]) : Vec3(Vec3::Ones());
 }
 
-/// The height of a value of 1: as in Gazebo, the brightest of the picture is as high as <size> says.
+/// Returns the height of a value of 1. <size> is the height of the brightest pixel of the picture, as in Gazebo.
 double height_of_white(const heightmap::HeightmapFile& file, double height) {
   const double brightest = *std::max_element(file.values.begin(), file.values.end());
   return brightest > 0 ? height / brightest : height;
@@ -26,7 +26,7 @@ double height_of_white(const heightmap::HeightmapFile& file, double height) {
 
 }  // namespace
 
-/// Puts the path of the file in place of its name, and the height of white in place of that of the brightest.
+/// Replaces the name of the picture by the path of its file, and the height of its brightest pixel by that of white.
 bool Check::complete_heightmap(const Element& body, Element& heightmap) {
   Element& uri = *heightmap.FirstChildElement("uri");
   const std::string name = text_of(uri);
@@ -57,7 +57,7 @@ bool Check::complete_heightmap(const Element& body, Element& heightmap) {
   return complete_textures(heightmap);
 }
 
-/// Leaves the first texture alone, with what libsdformat wants in one.
+/// Keeps only the first texture, and adds the elements that libsdformat requires in it.
 bool Check::complete_textures(Element& heightmap) {
   const std::vector<Element*> textures = model_file::children(heightmap, "texture");
   if (textures.size() > 1)

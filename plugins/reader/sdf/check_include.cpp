@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The model's file in a folder: what model.config names for the newest version that is read, else model.sdf.
+/// Returns the model's file in a folder: the file of the newest readable version in model.config, or model.sdf.
 fs::path file_in(const fs::path& folder) {
   std::string best = "model.sdf";
   try {
@@ -55,7 +55,7 @@ bool Check::complete_include(Element& include) {
     return fail("nothing is fetched from the network; save the model beside this file and give its path");
   const model_file::MeshPath found = model_file::find_file_or_folder(uri, source_.folder, sources_.packages());
   if (found.path.empty()) {
-    // two models that most worlds for Gazebo ask for
+    // two models that most worlds for Gazebo include
     if (in_world && uri == "model://sun") {
       problems_.note(location_of(include), "<include> of `model://sun` is left out: there are no lights");
       return false;
@@ -87,7 +87,7 @@ bool Check::complete_include(Element& include) {
   return true;
 }
 
-/// Gazebo's model of that name, where it is not installed: a plane at z = 0.
+/// Replaces Gazebo's model of that name, if it is not installed, by a plane at z = 0.
 void Check::put_ground_plane(Element& include) {
   problems_.note(location_of(include), "`model://ground_plane` is not found; a plane of friction 1 stands for it");
   Element* around = include.Parent()->ToElement();

@@ -12,7 +12,7 @@ std::string_view kind_of(const Element& e) {
   return std::string_view(e.Name()) == "include" ? "model" : std::string_view(e.Name());
 }
 
-/// The name that an element of a model or world has for the others.
+/// Returns the name by which the other elements of a model or world refer to this one.
 std::string name_of(Element& e) {
   return std::string_view(e.Name()) == "include" ? child_text(e, "name") : attribute(e, "name");
 }
@@ -34,7 +34,7 @@ bool Check::named(Element& e, const char* what) {
   return false;
 }
 
-/// Links, joints, frames and models share one set of names.
+/// Makes names unique: links, joints, frames and models share one set of names.
 void Check::names(Element& model, Scope& scope) {
   for (Element* e : model_file::children(model)) {
     const std::string_view element = e->Name();
@@ -69,7 +69,7 @@ bool Check::is_known(const Element& e, const std::string& what, const std::strin
                      std::string& advice) const {
   if (name.empty() || scope.open || name.starts_with("__")) return true;
   if (name == "world" && (scope.is_world || what == "parent")) return true;
-  // of "arm::hand" it is enough that there is an arm
+  // for "arm::hand" only `arm` has to exist
   if (scope.names.count(name) != 0 || scope.names.count(name.substr(0, name.find("::"))) != 0) return true;
   std::vector<std::string> names;
   for (const auto& [known, unused] : scope.names) names.push_back(known);
@@ -87,7 +87,7 @@ void Check::reference(Element& e, const char* name, const Scope& scope) {
     error(location_of(e), advice);
 }
 
-/// A joint that names a link that is not there is left out.
+/// Returns false, with a warning, if a joint names a link that does not exist. The joint is left out.
 bool Check::has_links(Element& joint, const Scope& scope) {
   std::string advice;
   for (const char* end : {"parent", "child"}) {
@@ -99,7 +99,7 @@ bool Check::has_links(Element& joint, const Scope& scope) {
   return true;
 }
 
-/// What names a frame must name one of the model or world it stands in.
+/// Checks that every reference names a frame of the model or world that contains the reference.
 void Check::references(Element& model, const Scope& scope) {
   const auto pose = [&](Element& e) {
     if (Element* p = e.FirstChildElement("pose")) {

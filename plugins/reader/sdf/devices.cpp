@@ -28,7 +28,7 @@ class Devices {
   const std::vector<sdf_devices::Subsystem>& subsystems() const { return subsystems_; }
 
  private:
-  /// "arm." of arm.hand.
+  /// Returns "arm." for arm.hand.
   static std::string prefix_of(const std::string& body, const std::string& link) {
     const std::size_t own = plain_name(link).size();
     const std::size_t dot = body.size() > own ? body.rfind('.', body.size() - own) : body.npos;

@@ -6,8 +6,8 @@
 
 namespace muro::sdf {
 
-/// Gives the base of a robot what its model says beside its bodies: sensors, drives, links without weight, self
-/// collision. To be called behind `base`.
+/// Gives the base of a robot the subsystems of its model: sensors, drives, gravity compensation for links without
+/// weight, self collision. Call it directly after `base`.
 void add_devices(const Assembly& assembly, const ::sdf::Model& model, const SourceFiles& sources, RobotBuilder& builder,
                  Problems& problems);
 

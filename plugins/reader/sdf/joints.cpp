@@ -20,7 +20,7 @@ using Type = ::sdf::JointType;
 
 constexpr double no_length = 1e-12;  // m
 
-/// Limits from 1e16 on, and those that are negative where that has no meaning, stand for none.
+/// Returns infinity for limits from 1e16 on, and for negative limits that have no meaning.
 double or_infinite(double limit) {
   return std::abs(limit) >= 1e16 ? std::copysign(std::numeric_limits<double>::infinity(), limit) : limit;
 }
@@ -28,7 +28,7 @@ double positive_or_infinite(double limit) {
   return limit < 0 ? std::numeric_limits<double>::infinity() : or_infinite(limit);
 }
 
-/// Whether all that others touch of a body that carries nothing are spheres about a point of it (m, its frame).
+/// Whether a body carries nothing and all its collision shapes are spheres about a point of it (m, in its frame).
 bool is_sphere_about(const Body& body, const Vec3& centre) {
   if (!body.link || body.link->CollisionCount() == 0 || !body.child_joints.empty() || !body.attached.empty())
     return false;
@@ -37,7 +37,7 @@ bool is_sphere_about(const Body& body, const Vec3& centre) {
     const ::sdf::Sphere* sphere = collision.Geom() ? collision.Geom()->SphereShape() : nullptr;
     ignition::math::Pose3d pose;
     if (!sphere || !collision.SemanticPose().Resolve(pose).empty()) return false;
-    constexpr double tolerance = 0.01;  // by the radius
+    constexpr double tolerance = 0.01;  // share of the radius
     if ((pose_of(pose).position - centre).norm() > tolerance * sphere->Radius()) return false;
   }
   return true;
@@ -83,7 +83,7 @@ std::vector<Joints::SingleDofJoint> Joints::dofs_of(const Joint& joint) {
   }
 }
 
-/// Three revolute joints lock where the second is at 90 degrees, which the ball of a caster reaches as it rolls.
+/// Three revolute joints lock if the second is at 90 degrees. The ball of a caster reaches that angle as it rolls.
 std::vector<Joints::SingleDofJoint> Joints::dofs_of_ball(const Joint& joint) {
   Body& child = a_.bodies[std::size_t(joint.child)];
   if (is_sphere_about(child, child.pose.inverse() * joint.pose.position)) {
@@ -164,7 +164,7 @@ void Joints::add_spring(const Joint& joint, const SingleDofJoint& dof) {
   spring.add_to(builder_);
 }
 
-/// `rotation`: of the present frame in that of the joint.
+/// `rotation`: orientation of the present frame in the frame of the joint.
 void Joints::add_dof(const Joint& joint, const SingleDofJoint& dof, const Quat& rotation) {
   const Vec3 axis = rotation.conjugate() * dof.axis;
   const JointLimits limits = limits_of(joint, dof);
@@ -192,13 +192,13 @@ void Joints::add(int number) {
   Pose to_joint = a_.bodies[std::size_t(joint.parent)].pose.inverse() * joint.pose;
   const Pose from_joint = joint.pose.inverse() * child;
   const std::vector<SingleDofJoint>& dofs = dofs_[std::size_t(number)];
-  if (dofs.empty()) return add_transform(to_joint * from_joint);  // fixed
+  if (dofs.empty()) return add_transform(to_joint * from_joint);  // a fixed joint
   for (std::size_t i = 0; i + 1 < dofs.size(); ++i) {
     add_transform(std::exchange(to_joint, Pose{}));
     add_dof(joint, dofs[i], Quat::Identity());
     builder_.body(a_.unique(dofs[i].name + "_body", "_body"));
   }
-  // Where the child's origin lies on the axis, its frame is that of the joint as well.
+  // If the child's origin lies on the axis, its frame can be the frame of the joint as well.
   const SingleDofJoint& last = dofs.back();
   if (last.is_prismatic || from_joint.position.cross(last.axis).norm() <= no_length) {
     add_transform(to_joint * from_joint);
@@ -233,8 +233,8 @@ void Joints::find_mimics() {
   }
 }
 
-/// The revolute joint between the carrier of a gear and one of its wheels, and the direction in which its position
-/// turns the wheel about `axis` (in the frame of the model): 1 or -1, 0 when there is no such joint.
+/// Returns the revolute joint between the carrier of a gear and one of its wheels, and the direction in which its
+/// position turns the wheel about `axis` (in the frame of the model): 1 or -1, or 0 if there is no such joint.
 std::pair<int, double> Joints::wheel(int carrier, int link, const Vec3& axis) const {
   for (std::size_t i = 0; i < a_.joints.size(); ++i) {
     const Joint& joint = a_.joints[i];
@@ -248,7 +248,7 @@ std::pair<int, double> Joints::wheel(int carrier, int link, const Vec3& axis) co
   return {-1, 0};
 }
 
-/// With theta_1 the angle of the parent and theta_2 that of the child, seen from the body that carries both:
+/// theta_1: angle of the parent, theta_2: angle of the child, both relative to the body that carries them.
 /// theta_2 = -ratio theta_1 (SDFormat, <gearbox_ratio>).
 void Joints::add_gearbox(const Joint& joint) {
   const ::sdf::ElementPtr element = joint.definition->Element();
@@ -271,7 +271,7 @@ void Joints::add_gearbox(const Joint& joint) {
   followers_[name] = {dofs_[std::size_t(leader.first)][0].name, -follower.second * ratio * leader.second, 0};
 }
 
-/// The robot knows one level: a follower of a follower follows the first leader.
+/// Robots have one level of mimic joints: a follower of a follower gets the first leader.
 void Joints::resolve_followers() {
   std::vector<std::string> circles;
   for (auto& [name, follower] : followers_) {

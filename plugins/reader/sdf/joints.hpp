@@ -7,23 +7,23 @@
 
 namespace muro::sdf {
 
-/// The joints of a robot. A joint of SDFormat with several axes becomes a dofs of revolute and prismatic ones.
+/// The joints of a robot. A joint of SDFormat with several axes becomes several revolute and prismatic joints.
 class Joints {
  public:
   Joints(Assembly& assembly, const SourceFiles& sources, RobotBuilder& builder, Problems& problems);
 
-  /// Adds what leads from the parent body, whose frame is the present one, to the frame of the child body.
+  /// Adds the transforms and joints from the parent body (the present frame) to the frame of the child body.
   void add(int joint);
-  /// When all have been added: tells of mimic joints that their leaders take beyond their limits.
+  /// Reports mimic joints that their leaders move beyond their limits. Call it after all joints have been added.
   void check_mimic_limits() const;
-  /// A translation and a rotation, where they are not zero.
+  /// Adds a translation and a rotation if they are not zero.
   void add_transform(const Pose& pose);
 
  private:
-  /// What becomes one joint of the robot.
+  /// Definition of one joint of the robot.
   struct SingleDofJoint {
     std::string name;
-    unsigned number = 0;  ///< of the <axis>
+    unsigned number = 0;  ///< number of the <axis>
     bool is_prismatic = false;
     Vec3 axis = Vec3::UnitZ();  ///< unit, in the frame of the joint
   };
@@ -48,13 +48,13 @@ class Joints {
   const SourceFiles& sources_;
   RobotBuilder& builder_;
   Problems& problems_;
-  std::vector<std::vector<SingleDofJoint>> dofs_;  ///< of each joint
+  std::vector<std::vector<SingleDofJoint>> dofs_;  ///< for each joint
   std::map<std::string, Follower> followers_;      ///< by name
   struct Range {
     model_file::JointRange range;
     const Joint* joint = nullptr;
   };
-  std::map<std::string, Range> ranges_;  ///< of all joints so far, by name
+  std::map<std::string, Range> ranges_;  ///< ranges of the joints added so far, by name
 };
 
 }  // namespace muro::sdf

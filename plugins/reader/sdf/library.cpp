@@ -16,7 +16,7 @@ std::mutex& one_at_a_time() {
   return mutex;
 }
 
-/// Keeps from standard error what the library, and urdfdom behind it, write there themselves.
+/// Suppresses text that libsdformat and urdfdom write to standard error.
 class Quiet {
  public:
   Quiet() : before_(std::cerr.rdbuf(nullptr)) {}
@@ -32,11 +32,11 @@ class Quiet {
 };
 
 ::sdf::ConsolePtr console() {
-  const Quiet quiet;  // it complains where it cannot keep its log
+  const Quiet quiet;  // the console complains if it cannot write its log
   return ::sdf::Console::Instance();
 }
 
-/// Nothing is looked for: all paths are given.
+/// Returns a configuration that does not search for files: all paths are given.
 ::sdf::ParserConfig config() {
   ::sdf::ParserConfig config;
   config.SetFindCallback([](const std::string&) { return std::string(); });
@@ -46,7 +46,7 @@ class Quiet {
   return config;
 }
 
-/// The descriptions of all elements: made once, as that takes longer than to read a model.
+/// Descriptions of all elements. They are made only once, as that takes longer than to read a model.
 ::sdf::SDFPtr empty_document() {
   static const ::sdf::SDFPtr descriptions = [] {
     auto made = std::make_shared<::sdf::SDF>();
@@ -84,13 +84,13 @@ std::vector<Library::Mistake> Library::load(const SourceFiles& sources, const st
   } catch (const std::exception& e) {
     thrown = e.what();
   }
-  // One mistake breaks much of what stands on it: the first message of a location, and those without location only when
-  // there are no others.
+  // One mistake causes many messages. Keeps the first message of each location. Messages without a location are kept
+  // only if there are no others.
   std::vector<Mistake> mistakes;
   std::set<FileLocation> known;
   for (const bool placed : {true, false})
     for (const ::sdf::Error& e : errors) {
-      // inertia is checked by the reader
+      // the reader checks inertia
       if (e.Code() == ::sdf::ErrorCode::NONE || e.Code() == ::sdf::ErrorCode::LINK_INERTIA_INVALID) continue;
       const FileLocation location = sources.location_of(e.FilePath().value_or(""), e.LineNumber().value_or(0));
       if ((location.line > 0) != placed || (!placed && !mistakes.empty()) || !known.insert(location).second) continue;

@@ -9,7 +9,7 @@
 
 namespace muro::sdf {
 
-/// libsdformat for as long as this lives: silent, and for this thread alone, as its console is one for the process.
+/// Exclusive access to libsdformat for one thread, with a silent console: the process has only one console.
 class Library {
  public:
   Library();
@@ -21,7 +21,7 @@ class Library {
     FileLocation location;
     std::string text;
   };
-  /// What the library makes of the checked sources, when `text` is that of the main one. Returns what it finds wrong.
+  /// Loads the checked sources, with `text` as the text of the main source, into `root`. Returns the mistakes found.
   std::vector<Mistake> load(const SourceFiles& sources, const std::string& text, ::sdf::Root& root);
 
  private:
@@ -29,7 +29,7 @@ class Library {
   std::ostream* messages_;
 };
 
-/// Where an element is in its file.
+/// Returns the location of an element in its file.
 FileLocation location_of(const SourceFiles& sources, ::sdf::ElementPtr element);
 
 }  // namespace muro::sdf

@@ -51,8 +51,8 @@ class TreeMaker {
     joint.left_out = true;
   }
 
-  /// Joints with the world: a fixed one is reported, for the motion has to know it; others need a body that stands for
-  /// the world.
+  /// Handles joints with the world. They are reported, as the motion has to fix the robot. If one of them moves, or if
+  /// there are several, a body that represents the world is added.
   void connect_to_world() {
     if (world_joints_.empty()) return;
     const bool moves = std::any_of(world_joints_.begin(), world_joints_.end(), [&](int i) {
@@ -111,7 +111,7 @@ class TreeMaker {
                             is_static_ ? "" : ". What is to move freely is a model of its own"));
   }
 
-  /// Bodies that cannot be reached from the base are attached to it, so that all of the model can be shown.
+  /// Attaches unreached bodies to the base, so that the whole model can be shown.
   void attach_unreached() {
     std::vector<bool> reached(a_.bodies.size(), false);
     const auto reach = [&](int from) {
@@ -124,7 +124,7 @@ class TreeMaker {
         for (const int j : a_.bodies[std::size_t(b)].child_joints) open.push_back(a_.joints[std::size_t(j)].child);
       }
     };
-    // a base within a loop has a parent, which is among its own descendants
+    // a base within a loop has a parent among its own descendants
     detach(a_.base);
     reach(a_.base);
     for (const bool loops : {false, true})

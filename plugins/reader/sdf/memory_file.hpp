@@ -11,8 +11,8 @@
 
 namespace muro::sdf {
 
-/// A text that a library can open by a path, without a file on a disk. Included models are given to libsdformat in
-/// this way, as it opens them itself.
+/// A text that a library can open by a path, without a file on a disk. libsdformat gets included models in this way,
+/// because it opens them on its own.
 class MemoryFile {
  public:
   explicit MemoryFile(std::string_view text) : descriptor_(memfd_create("muro-sdf", MFD_CLOEXEC)) {

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reports a world to its builder.
+/// Builds a world with its builder.
 class WorldReader {
  public:
   WorldReader(const SourceFiles& sources, WorldBuilder& builder, Problems& problems)
@@ -50,7 +50,7 @@ class WorldReader {
   }
 
   void add_scenery(const ::sdf::Model& model, const Pose& pose) {
-    // mistakes in one model end the reading of that model alone
+    // mistakes in one model end the reading of that model only
     Problems own([&](Severity severity, std::string_view text, int line, int column) {
       if (severity == Severity::error)
         leave_out(model, Location{line, column}, std::string(text));
@@ -71,7 +71,7 @@ class WorldReader {
   }
 
   void add_model(const ::sdf::Model& model, const Pose& pose) {
-    // who builds a robot reports to it: a model that nobody uses as a robot need not be one
+    // problems go to the robot's builder: a model that is not used as a robot may be invalid
     std::vector<std::tuple<Severity, std::string, int, int>> reports;
     Problems own([&reports](Severity s, std::string_view text, int line, int column) {
       reports.emplace_back(s, std::string(text), line, column);
@@ -90,7 +90,7 @@ class WorldReader {
   std::set<std::string> names_;
 };
 
-/// libsdformat takes 90 kB and 0.3 ms for an element.
+/// Sets the limits of memory and time. libsdformat takes 90 kB and 0.3 ms for an element.
 void allow_for(const SourceFiles& sources) {
   const std::size_t elements = sources.main().elements;
   parser_process::allow({std::uint64_t(elements) * 150'000, double(elements) * 0.005});
@@ -104,7 +104,7 @@ void tell_pose(const ::sdf::Model& model, const SourceFiles& sources, Problems& 
     problems.note(location_of(sources, model.Element()), "the model is static; a robot without a motion stands still");
 }
 
-/// The models and includes of the world that is read.
+/// Returns the models and includes of the world that is read.
 std::vector<Element*> models_of(const SourceFiles& sources) {
   std::vector<Element*> models;
   for (Element* e : model_file::children(*sources.main().content))
@@ -112,8 +112,8 @@ std::vector<Element*> models_of(const SourceFiles& sources) {
   return models;
 }
 
-/// Takes out of the world the models that libsdformat does not read, each with its reason; false where it reads each of
-/// them alone.
+/// Removes from the world the models that libsdformat cannot read, and reports each reason. Returns false if
+/// libsdformat can read each model alone.
 bool leave_out_bad_models(SourceFiles& sources, Library& library, Problems& problems) {
   bool found = false;
   for (Element* model : models_of(sources)) {
@@ -130,7 +130,7 @@ bool leave_out_bad_models(SourceFiles& sources, Library& library, Problems& prob
   return found;
 }
 
-/// False, with errors reported, when libsdformat reads nothing.
+/// Returns false, with errors reported, if libsdformat cannot read the world.
 bool load_world(SourceFiles& sources, Library& library, ::sdf::Root& root, Problems& problems) {
   auto mistakes = library.load(sources, sources.main().normalized, root);
   if (!mistakes.empty() && leave_out_bad_models(sources, library, problems)) {
@@ -141,7 +141,7 @@ bool load_world(SourceFiles& sources, Library& library, ::sdf::Root& root, Probl
   return mistakes.empty();
 }
 
-/// A model without links: a light, an actor, or a static one that is empty.
+/// Builds a robot without links: for a light, an actor, or an empty static model.
 void build_frame(const std::string& name, RobotBuilder& builder) { builder.base(plain_name(name)); }
 
 }  // namespace

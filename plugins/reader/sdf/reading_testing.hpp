@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For tests: robots and worlds from texts, and what was said about them.
+// For tests: robots and worlds from texts, and the problems reported for them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ inline Lines lines_of(const std::vector<RobotTree::Problem>& problems) {
   return lines;
 }
 
-/// Those that are no notes.
+/// Returns the lines that are not notes.
 inline Lines without_notes(const Lines& lines) {
   Lines kept;
   for (const std::string& l : lines)
@@ -36,12 +36,12 @@ inline Lines without_notes(const Lines& lines) {
   return kept;
 }
 
-/// A robot, as it was read.
+/// A robot as it was read.
 struct Robot {
   RobotTree tree;
   Lines problems;
 
-  /// The value of a constant of a part; nothing when it has none.
+  /// Returns the value of a constant of a part; nothing if the part does not have it.
   template <class T>
   std::vector<T> constants(const std::string& part, const Key<T>& key) const {
     std::vector<T> values;
@@ -65,7 +65,7 @@ struct Robot {
   }
   std::string name(std::int32_t part) const { return tree.components().at(std::size_t(part)).name; }
 
-  /// Of a body in the base's frame, with joints by name at these positions and all others at 0.
+  /// Returns the pose of a body in the base's frame. `positions`: of joints by name; all others are at 0.
   Pose pose(const std::string& body, const std::map<std::string, double>& positions = {}) const {
     std::vector<Pose> poses;
     for (const auto& f : tree.links()) {
@@ -76,7 +76,7 @@ struct Robot {
     }
     return {Vec3::Constant(NAN), Quat::Identity()};
   }
-  /// "base a", "fork", "revolute axis_joint", ...
+  /// Returns the kind and name of each node: "base a", "fork", "revolute axis_joint", ...
   Lines blocks() const {
     constexpr const char* kinds[] = {"base", "fork", "translation", "rotation", "revolute", "prismatic", "body"};
     Lines lines;
@@ -93,7 +93,7 @@ inline Robot robot_of(const std::string& sdf, const std::string& folder = "/nowh
   return robot;
 }
 
-/// A model `m` in line 2 of a file; `inside` begins at line 3, column 1.
+/// Returns a file with a model `m` in line 2; `inside` begins at line 3, column 1.
 inline std::string model(const std::string& inside, const std::string& version = "1.9") {
   return "<sdf version='" + version + "'>\n<model name='m'>\n" + inside + "\n</model></sdf>";
 }
@@ -103,7 +103,7 @@ inline std::string inertial(double mass = 1) {
                 "</mass><inertia><ixx>1</ixx><ixy>0</ixy><ixz>0</ixz><iyy>1</iyy><iyz>0</iyz>",
                 "<izz>1</izz></inertia></inertial>");
 }
-/// A link of 1 kg.
+/// Returns a link of 1 kg.
 inline std::string link(const std::string& name, const std::string& inside = "") {
   return "<link name='" + name + "'>" + inside + inertial() + "</link>";
 }

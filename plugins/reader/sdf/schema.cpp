@@ -23,7 +23,7 @@ constexpr SchemaElement value(std::string_view parent, std::string_view name, Va
 constexpr SchemaElement device(std::string_view parent, std::string_view name) {
   return {.parent = parent, .name = name, .type = ValueType::device, .repeatable = true};
 }
-/// The robot or world differs without it: a warning.
+/// An element without which the robot or world differs: a warning.
 constexpr SchemaElement unsupported(std::string_view parent, std::string_view name, std::string_view reason,
                                     std::string_view supported_value = {}) {
   return {.parent = parent,
@@ -34,7 +34,7 @@ constexpr SchemaElement unsupported(std::string_view parent, std::string_view na
           .reason = reason,
           .supported_value = supported_value};
 }
-/// Of interest only to a program for display or to one engine: a note.
+/// An element for display programs or for one engine only: a note.
 constexpr SchemaElement irrelevant(std::string_view parent, std::string_view name, std::string_view reason,
                                    std::string_view supported_value = {}) {
   SchemaElement e = unsupported(parent, name, reason, supported_value);

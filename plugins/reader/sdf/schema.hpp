@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which elements of SDFormat are read, and what is reported of the others.
+// Lists the elements of SDFormat that are read, and the reports about the others.
 #pragma once
 
 #include <span>
@@ -26,19 +26,19 @@ struct SchemaElement {
   std::string_view parent;  ///< name of the section
   std::string_view name;
   ValueType type = ValueType::section;
-  int count = 1;                          ///< numbers
+  int count = 1;                          ///< numbers: how many
   bool repeatable = false;                ///< may occur several times in its section
-  std::string_view section = {};          ///< a section: under which name its children are looked up; none: its own
-  Severity severity = Severity::note;     ///< unsupported: of the message
-  std::string_view reason = {};           ///< unsupported: what a reader of the message should know
-  std::string_view supported_value = {};  ///< unsupported: an element with this value is no loss and not reported
+  std::string_view section = {};          ///< section: name under which its children are looked up; empty: its own name
+  Severity severity = Severity::note;     ///< unsupported: severity of the message
+  std::string_view reason = {};           ///< unsupported: text of the message
+  std::string_view supported_value = {};  ///< unsupported: value with which nothing is lost or reported
 };
 
-/// Null when SDFormat has no such element there.
+/// Returns null if SDFormat has no such element there.
 const SchemaElement* find_in_schema(std::string_view parent, std::string_view name);
 std::span<const SchemaElement> schema();
 
-/// Whether an element of a section may have the attribute.
+/// Whether elements of a section may have the attribute.
 bool is_attribute_of(std::string_view section, std::string_view attribute);
 
 }  // namespace muro::sdf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads robots and worlds from SDFormat files (http://sdformat.org): service.cpp does it, in the parser process.
+// Reads robots and worlds from SDFormat files (http://sdformat.org). service.cpp reads them, in the parser process.
 #include "muro/ext/package_folders.hpp"
 #include "muro/plugin.hpp"
 #include "plugins/common/parser_process/ask.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sensors, plugins and flags of models become subsystems of their robots.
+// Sensors, plugins and flags of models as subsystems of their robots.
 #include "reading_testing.hpp"
 
 namespace muro::sdf {

@@ -9,7 +9,7 @@ namespace {
 
 using test::ScratchFolder;
 
-/// A picture of 3 x 2 pixels whose brightest is half as bright as white, and its folder.
+/// A picture of 3 x 2 pixels with a brightest pixel of half white, and its folder.
 struct Hills {
   ScratchFolder folder;
   std::string path = folder.path("hills.png");
@@ -24,7 +24,7 @@ struct HillyWorld {
   Lines problems;
 };
 
-/// Its model `land` begins in line 2, what is in its link in line 3; a ball stands beside it.
+/// Returns a world with a ball and a model `land` in line 2; `inside` is in its link, in line 3.
 HillyWorld hilly_world(const std::string& inside, const std::string& folder) {
   HillyWorld out;
   read_world_text("<sdf version='1.9'><world name='w'>\n<model name='land'><static>1</static><link name='l'>\n" +
@@ -49,7 +49,7 @@ TEST(SdfHeightmap, OfAStaticModelIsAsHighAsGazeboMakesIt) {
   EXPECT_EQ(shape.kind, ShapeKind::heightmap);
   EXPECT_EQ(world.model.texts()[shape.mesh], hills.path);
   EXPECT_EQ(shape.origin.position, Vec3(1, 2, 0.5));
-  // Gazebo: black is 0, the brightest pixel is as high as the file says, the upper row is at +y
+  // Gazebo: black is 0, the brightest pixel has the height of the file, the upper row is at +y
   const heightmap::HeightmapFile file = heightmap::read_values(hills.path);
   const Heightmap map = file.heightmap(shape.size);
   const double expected[2][3] = {{1, 4, 0.5}, {0, 2, 4}};

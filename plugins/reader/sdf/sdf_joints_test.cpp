@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every type of joint, against where its links go by SDFormat's definition.
+// Every type of joint: poses of its links, compared with SDFormat's definition.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -16,18 +16,18 @@ using std::numbers::pi;
 
 Quat about(const Vec3& axis, double angle) { return Quat(Eigen::AngleAxisd(angle, axis.normalized())); }
 
-/// Links a and b, b 1 m above a and turned, and a joint between them whose frame is off b's origin.
+/// Returns links a and b, b 1 m above a and turned, and a joint with its frame away from b's origin.
 Robot two_links(const std::string& type, const std::string& inside) {
   return robot_of(model(link("a", "<pose>5 0 0 0 0 0.3</pose>") +
                         link("b", "<pose relative_to='a'>0 0 1 0 0 1.5707963267948966</pose>") +
                         joint("j", type, "a", "b", inside)));
 }
 const Pose b_at_rest{{0, 0, 1}, from_rpy(0, 0, pi / 2)};
-/// Of the joint in a, when its <pose> is 0.1 0.2 0.3 in b.
+/// Pose of the joint in a, with the joint's <pose> of 0.1 0.2 0.3 in b.
 const Pose joint_in_a = b_at_rest * Pose{{0.1, 0.2, 0.3}, Quat::Identity()};
 constexpr char off[] = "<pose>0.1 0.2 0.3 0 0 0</pose>";
 
-/// Of b in a when what hangs on the joint's frame has moved by `motion`, in that frame.
+/// Returns the pose of b in a after a `motion` of the joint, given in the joint's frame.
 Pose moved(const Pose& motion) { return joint_in_a * motion * joint_in_a.inverse() * b_at_rest; }
 
 TEST(SdfJoints, ARevoluteJointTurnsTheChildAboutItsAxisWhereverItsFrameIs) {
@@ -121,7 +121,7 @@ TEST(SdfJoints, UniversalAndRevolute2AreTwoRevoluteJoints) {
                                             axis("0 1 0", "<limit><lower>-2</lower><upper>2</upper></limit>", "axis2"));
     EXPECT_EQ(robot.problems, Lines{});
     EXPECT_TRUE(near(robot.pose("b"), b_at_rest));
-    // the first axis stays with the parent, the second goes with the child
+    // the first axis stays with the parent, the second moves with the child
     const Quat turn = about(Vec3::UnitX(), 0.4) * about(Vec3::UnitY(), 0.9);
     EXPECT_TRUE(near(robot.pose("b", {{"j_axis", 0.4}, {"j_axis2", 0.9}}), moved({Vec3::Zero(), turn})));
     EXPECT_EQ(robot.joint("j_axis")->link.limits.upper, 1);
@@ -143,7 +143,7 @@ TEST(SdfJoints, ABallIsThreeRevoluteJointsAndSaysSo) {
 }
 
 TEST(SdfJoints, AScrewSlidesAsItTurns) {
-  // SDFormat 1.10 defines: one turn moves the child by -2 pi / thread_pitch
+  // SDFormat 1.10: one turn moves the child by -2 pi / thread_pitch
   const Robot robot = two_links("screw", axis("0 0 1") + "<thread_pitch>-4</thread_pitch>");
   EXPECT_EQ(robot.problems, Lines{});
   const Link& slide = robot.joint("j_slide")->link;
@@ -166,7 +166,7 @@ std::string wheels(const std::string& gear) {
 TEST(SdfJoints, AGearboxMakesTheChildsJointFollowTheParents) {
   const Robot robot = robot_of(wheels(axis("0 0 1") + axis("0 0 1", "", "axis2")));
   EXPECT_EQ(robot.problems, Lines{});
-  // theta_2 = -2.5 theta_1 about z, and jl counts about -z
+  // theta_2 = -2.5 theta_1 about z, and jl is positive about -z
   EXPECT_EQ(robot.joint("jl")->mimic_leader, "js");
   EXPECT_EQ(robot.joint("jl")->link.mimic_multiplier, 2.5);
 }
@@ -188,7 +188,7 @@ TEST(SdfJoints, AMimicOfAMimicFollowsTheFirst) {
                 axis("0 0 1", mimic("j", "<multiplier>2</multiplier><offset>1</offset><reference>0.25</reference>"))) +
           joint("l", "revolute", "c", "d", axis("0 0 1", mimic("k", "<multiplier>3</multiplier>"))),
       "1.11"));
-  EXPECT_EQ(robot.problems.size(), 1u);  // the version
+  EXPECT_EQ(robot.problems.size(), 1u);  // message about the version
   // k = 2 (j - 0.25) + 1, l = 3 k
   EXPECT_EQ(robot.joint("k")->link.mimic_multiplier, 2);
   EXPECT_EQ(robot.joint("k")->link.mimic_offset, 0.5);
@@ -206,7 +206,7 @@ TEST(SdfJoints, TellsOfMimicsBeyondTheirLimits) {
                          joint("k", "revolute", "a", "c",
                                axis("0 0 1", limit("0.88") + "<mimic joint='j'><multiplier>-1</multiplier></mimic>")),
                      "1.11"));
-  ASSERT_EQ(robot.problems.size(), 2u);  // the version, and this
+  ASSERT_EQ(robot.problems.size(), 2u);  // message about the version, and the tested warning
   EXPECT_NE(
       robot.problems.back().find("joint `k` mimics `j`, which takes it from -0.8 to 0, beyond its own limits 0 to "
                                  "0.88; it goes there"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What robots come out of the example model and of small SDFormat documents.
+// Robots from the example model and from small SDFormat documents.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -17,7 +17,7 @@ using test::ScratchFolder;
 
 std::string example(const std::string& name) { return std::string(MURO_TEST_SOURCE_DIR) + "/examples/models/" + name; }
 
-/// Both are read through the plugins, as a scenario would.
+/// Both files are read through the plugins, as in a scenario.
 TEST(SdfModels, TheRoverIsTheOneThatReaderUrdfReads) {
   test::Scene scene;
   const RobotTree sdf_tree = scene.read_model(example("rover.sdf")),
@@ -59,7 +59,7 @@ TEST(SdfModels, TheRoverIsTheOneThatReaderUrdfReads) {
         EXPECT_TRUE(near(s[k].origin, t[k].origin));
         if (key.name == keys::visual_shapes.name) {
           EXPECT_TRUE(s[k].color.isApprox(t[k].color, 1e-6));
-          continue;  // nothing touches them
+          continue;  // such shapes touch nothing
         }
         EXPECT_EQ(s[k].surface.friction, t[k].surface.friction);
         EXPECT_EQ(s[k].surface.restitution, t[k].surface.restitution);
@@ -70,8 +70,8 @@ TEST(SdfModels, TheRoverIsTheOneThatReaderUrdfReads) {
 }
 
 TEST(SdfModels, PosesAreRelativeToAnyFrame) {
-  // by hand: f stands 1 m in front of a, turned left by 90 degrees; b is 2 m in front of f, so 2 m to the left of it;
-  // c is 3 m above b with b's heading; the joint k stands at c's origin
+  // by hand: f is 1 m in front of a, turned left by 90 degrees; b is 2 m in front of f, so 2 m to the left of it;
+  // c is 3 m above b with b's heading; the joint k is at c's origin
   const Robot robot = robot_of(model(
       link("a", "<pose>10 0 0 0 0 0</pose>") +
       "<frame name='f' attached_to='a'><pose degrees='true'>1 0 0 0 0 90</pose></frame>" +
@@ -142,7 +142,7 @@ TEST(SdfModels, EveryShapeIsReadWithItsPlaceAndSurface) {
   EXPECT_EQ(shapes[2].kind, ShapeKind::cylinder);
   EXPECT_EQ(shapes[2].size, Vec3(0.5, 0, 2));
   EXPECT_EQ(shapes[2].origin.position, Vec3(1, 0, 0));
-  EXPECT_EQ(shapes[2].surface.friction, 1);  // the default of <mu>
+  EXPECT_EQ(shapes[2].surface.friction, 1);  // default of <mu>
   EXPECT_EQ(shapes[3].kind, ShapeKind::capsule);
   EXPECT_EQ(shapes[3].size, Vec3(0.5, 0, 2));
   EXPECT_EQ(shapes[4].kind, ShapeKind::plane);
@@ -222,11 +222,11 @@ TEST(SdfModels, MergedIncludesBringTheirLinksIntoTheModel) {
   EXPECT_NE(robot.frame("core"), nullptr);
 }
 
-/// What differs between versions in the words that these files use: which frame axes are in.
+/// For these files the versions differ only in the frame of axes.
 TEST(SdfModels, VersionsFrom14To19MeanTheSame) {
   for (const char* version : {"1.4", "1.5", "1.6", "1.7", "1.8", "1.9"}) {
     SCOPED_TRACE(version);
-    // turned links, so that frames matter
+    // links are turned, so that frames matter
     const Robot robot = robot_of(
         model(link("a", "<pose>0 0 1 0 0 0</pose>") + link("b", "<pose>0 0 2 0 0 1.5707963267948966</pose>") +
                   joint("j", "revolute", "a", "b", axis("1 0 0", "<limit><lower>-1</lower><upper>2</upper></limit>")),
@@ -237,7 +237,7 @@ TEST(SdfModels, VersionsFrom14To19MeanTheSame) {
     EXPECT_TRUE(near(f.origin, {{0, 0, 1}, from_rpy(0, 0, pi / 2)}));
     EXPECT_EQ(f.limits.lower, -1);
     EXPECT_EQ(f.limits.upper, 2);
-    // up to 1.4 an axis is in the frame of the model, then in that of the joint
+    // up to 1.4 an axis is in the frame of the model, later in that of the joint
     const Vec3 expected = std::string(version) == "1.4" ? Vec3(0, -1, 0) : Vec3(1, 0, 0);
     EXPECT_TRUE(f.axis.isApprox(expected, 1e-9)) << f.axis.transpose();
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every mistake is reported in full, with its location, and all mistakes of a file at once.
+// Every mistake is reported completely, with its location, and all mistakes of a file at once.
 #include <gtest/gtest.h>
 
 #include <clocale>
@@ -134,7 +134,7 @@ TEST(SdfProblems, WhatNoJointLeadsToIsFixedToTheBase) {
                   "move freely is a model of its own"});
   EXPECT_EQ(robot.blocks(), (Lines{"base a", "translation", "body b", "revolute j", "body c"}));
   EXPECT_TRUE(near(robot.pose("c"), {{-1, 0, 0}, Quat::Identity()}));
-  // in a model that does not move it is nothing to warn of
+  // a model that does not move needs no warning
   EXPECT_EQ(without_notes(problems_of("<static>true</static>" + link("a") + link("b"))), Lines{});
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The way of a model through the parser process: what is recorded there and made here is what the reader does.
+// Models through the parser process: the recorded and replayed calls equal the calls of the reader.
 #include "plugins/common/parser_process/builder_calls/record.hpp"
 #include "plugins/common/parser_process/builder_calls/replay.hpp"
 #include "reading_testing.hpp"

@@ -13,7 +13,7 @@ namespace {
 
 const std::string source = MURO_TEST_SOURCE_DIR, models = source + "/examples/models";
 
-/// One random damage: a bit, a byte, a cut part, a doubled part, a lost or doubled tag, another value, a cut end.
+/// Applies one random damage: a bit, a byte, a cut or doubled part, a lost or doubled tag, another value, a cut end.
 void damage(std::string& text, std::mt19937& random) {
   const auto below = [&random](std::size_t n) { return std::size_t(random() % std::max<std::size_t>(n, 1)); };
   const std::size_t at = below(text.size());
@@ -97,7 +97,7 @@ Outcomes read_damaged_rovers(unsigned seed, int variants) {
     }
     (tree.problems().empty() ? outcomes.clean : outcomes.warned)++;
     tree.close();
-    // what the reader lets pass, the host can use
+    // the host can use everything that the reader accepts
     EXPECT_TRUE(tree.usable()) << "variant " << variant << ": " << tree.problems().back().text << "\n" << text;
     check_sound(tree, text);
   }
@@ -184,7 +184,7 @@ TEST(SdfRobustness, ThreadsThatReadAtOnceReadTheSame) {
 }
 
 TEST(SdfRobustness, NothingIsLookedForBesideTheGivenPaths) {
-  // a file of that name in the working folder leads nowhere
+  // a file of this name in the working folder is not used
   const test::ScratchFolder folder, elsewhere;
   elsewhere.file("wheel.sdf", "<sdf version='1.9'><model name='w'>" + link("l") + "</model></sdf>");
   const auto before = std::filesystem::current_path();

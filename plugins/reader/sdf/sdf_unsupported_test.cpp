@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Nothing of a file is dropped in silence.
+// Every unread element of a file is reported.
 #include <gtest/gtest.h>
 
 #include <tinyxml2.h>
@@ -13,7 +13,7 @@
 namespace muro::sdf {
 namespace {
 
-/// What is reported of an element in a section of a file, from line 4 on.
+/// Returns the reports on an element in a section of a file, from line 4 on.
 Lines reports_of(const std::string& section, const std::string& element) {
   const std::string shape = "<geometry><sphere><radius>1</radius></sphere></geometry>";
   const auto in_link = [&](const std::string& more) {
@@ -41,7 +41,7 @@ Lines reports_of(const std::string& section, const std::string& element) {
   if (section == "geometry")
     file = in_link("<collision name='c'><geometry>" + element +
                    "<sphere><radius>1</radius></sphere></geometry></collision>");
-  if (section == "mesh") return {};  // below: needs a file
+  if (section == "mesh") return {};  // tested below: it needs a file
   if (section == "surface") file = in_collision("<surface>" + element + "</surface>");
   if (section == "bounce" || section == "friction" || section == "contact")
     file = in_collision("<surface><" + section + ">" + element + "</" + section + "></surface>");
@@ -99,7 +99,7 @@ TEST(SdfUnsupported, ElementsWithTheSupportedValueAreNotReported) {
   EXPECT_EQ(reports_of("link", "<self_collide>0</self_collide><gravity>1</gravity>"), Lines{});
 }
 
-/// The schema that libsdformat is installed with says what there is.
+/// Compares muro's schema with the one that is installed with libsdformat.
 TEST(SdfUnsupported, ElementsOfTheInstalledSchemaAreAllKnown) {
   namespace fs = std::filesystem;
   const std::string root = "/usr/share/sdformat12";

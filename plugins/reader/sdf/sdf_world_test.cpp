@@ -18,7 +18,7 @@ struct ReadWorld {
   Lines problems;
 };
 
-/// A world in line 2; `inside` begins at line 3.
+/// Returns a file with a world in line 2; `inside` begins at line 3.
 ReadWorld world_of(const std::string& inside, const std::string& version = "1.9",
                    const std::string& folder = "/nowhere") {
   ReadWorld out;
@@ -63,7 +63,7 @@ TEST(SdfWorld, GravityIsThatOfTheFileInAllVersions) {
   for (const char* version : {"1.4", "1.5"}) {
     const ReadWorld world = world_of("<physics type='ode'><gravity>0 0 -1.6</gravity></physics>", version);
     EXPECT_EQ(world.model.gravity(), Vec3(0, 0, -1.6)) << version;
-    EXPECT_EQ(world.problems.size(), 1u);  // <physics>
+    EXPECT_EQ(world.problems.size(), 1u);  // warning about <physics>
   }
 }
 
@@ -147,7 +147,7 @@ TEST(SdfWorld, ABadModelIsLeftOutAndTheOthersAreThere) {
   EXPECT_EQ(number.problems,
             Lines{"warning 4:19 model `bad` is left out: <pose>: `here` is no number; write it like 0.05 or 5e-2"});
   expect_rest(number);
-  // what only libsdformat finds
+  // a mistake that only libsdformat finds
   const ReadWorld frames = world_of(good + "<model name='bad'>" + link("a", "<pose relative_to='f'/>") +
                                     "<frame name='f'><pose relative_to='a'/></frame></model>\n" + house);
   ASSERT_EQ(frames.problems.size(), 1u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the parser process offers to sdf.cpp: the calls that build a robot or a world. A request is the path of a file,
-// and how many packages the user has named, each with its folder.
+// Service of the parser process for sdf.cpp: the calls that build a robot or a world. A request is the path of a file,
+// and the number of packages that the user has named, each with its folder.
 #include "plugins/common/parser_process/service.hpp"
 
 #include "plugins/common/parser_process/builder_calls/record.hpp"

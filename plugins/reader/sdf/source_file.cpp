@@ -31,7 +31,7 @@ std::string escaped(std::string_view text) {
         out += "&quot;";
         break;
       default:
-        // lines are counted
+        // no line breaks within a tag, as lines are counted
         out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
     }
   }
@@ -49,7 +49,7 @@ void print(const Element& e, SourceFile& source) {
   source.normalized += concat("</", e.Name(), ">");
 }
 
-/// The <world> or <model> of a file; a warning when there are several.
+/// Returns the <world> or <model> of a file. Warns if there are several.
 Element* content_of(Element& root, Content wanted, const SourceFile& source, Problems& problems) {
   const char* name = wanted == Content::world ? "world" : "model";
   const std::vector<Element*> found = model_file::children(root, name);
@@ -61,7 +61,7 @@ Element* content_of(Element& root, Content wanted, const SourceFile& source, Pro
   return found.empty() ? nullptr : found.front();
 }
 
-/// What a file of a model holds that has none, as that of Gazebo's sun.
+/// Returns the light or actor of a file without models, such as that of Gazebo's sun.
 const Element* only_light_or_actor(const Element& root) {
   if (root.FirstChildElement("world")) return nullptr;
   const Element* light = root.FirstChildElement("light");
@@ -93,7 +93,7 @@ bool SourceFiles::parse(SourceFile& source, std::string bytes, bool included, st
   std::string text;
   if (!source.document->parse(bytes, location, text)) return fail(location, text);
   Element* root = source.document->root();
-  // up to SDFormat 1.2
+  // name of the root up to SDFormat 1.2
   if (root && std::string_view(root->Name()) == "gazebo") root->SetName("sdf");
   if (!root || std::string_view(root->Name()) != "sdf")
     return fail(
@@ -169,7 +169,7 @@ std::string SourceFiles::with_file_names(std::string text) const {
   for (const auto& source : sources_) {
     if (!source->memory) continue;
     const std::string path = source->memory->path();
-    // /proc/self/fd/1 is the beginning of /proc/self/fd/12, too
+    // /proc/self/fd/12 begins with /proc/self/fd/1
     for (std::size_t at = text.find(path); at != text.npos; at = text.find(path, at + 1)) {
       const std::size_t end = at + path.size();
       if (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end]))) continue;
@@ -206,7 +206,7 @@ const SourceFile* SourceFiles::include(const std::filesystem::path& path, std::s
       return nullptr;
     }
     open_.push_back(path);
-    // a file with mistakes is left out, and does not end the reading of the one that includes it
+    // a file with mistakes is left out, and the file that includes it is read on
     Problems own([this](Severity severity, std::string_view text, int line, int column) {
       const Severity told = severity == Severity::error ? Severity::warning : severity;
       problems_.report(told, Location{line, column}, std::string(text));

@@ -21,9 +21,9 @@ class Bodies {
   Bodies(const Places& places, RobotBuilder& builder, Problems& problems)
       : places_(places), builder_(builder), problems_(problems) {}
 
-  /// For the last part of the builder.
+  /// Sets the constants of the last part of the builder.
   void fill(const ::urdf::Link& link, const LinkInfo& info);
-  /// kg, of all bodies so far.
+  /// Returns the mass of all bodies so far, kg.
   double mass() const { return mass_; }
   void report_missing_meshes() const { missing_.report(problems_); }
 
@@ -39,7 +39,7 @@ class Bodies {
   const Places& places_;
   RobotBuilder& builder_;
   Problems& problems_;
-  std::map<std::string, model_file::MeshPath> meshes_;  ///< by the name in the file
+  std::map<std::string, model_file::MeshPath> meshes_;  ///< meshes by their name in the file
   model_file::MissingMeshes missing_;
   double mass_ = 0;
 };

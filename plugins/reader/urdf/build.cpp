@@ -61,7 +61,7 @@ class TreeBuilder {
   }
 
  private:
-  /// `name`, followed by `suffix` as often as it takes to be unique.
+  /// Returns `name`, followed by `suffix` as often as needed to be unique.
   std::string unique(std::string name, std::string_view suffix) {
     while (!used_.insert(name).second) name += suffix;
     return name;
@@ -136,7 +136,7 @@ class TreeBuilder {
                              " no mass; a motion by forces needs an <inertial> there"));
   }
 
-  /// Mimics of mimics are resolved to the joint that leads them all: the host knows one level.
+  /// Sets the leader of a mimic joint. A mimic of a mimic gets the first leader, as the host has only one level.
   void follow(const ::urdf::Joint& joint) {
     double multiplier = joint.mimic->multiplier, offset = joint.mimic->offset;
     auto leader = model_.getJoint(joint.mimic->joint_name);
@@ -158,7 +158,7 @@ class TreeBuilder {
                           quote(joint.parent), "; it is fixed, as the base of a robot moves anyway"));
   }
 
-  /// A root named `world` stands for the world in Gazebo, and what is fixed to it stays where it is.
+  /// In Gazebo a root named `world` is the world, and the links fixed to it do not move. Reports that muro differs.
   void report_fixed_base(const std::string& name, const JointInfo& joint) {
     if (joint.parent != "world" || !hangs_on_bare_root(joint)) return;
     problems_.note(joint.location,
@@ -166,7 +166,7 @@ class TreeBuilder {
                           ", which is its base and can move; a motion by forces holds it with `base: fixed`"));
   }
 
-  /// Two prismatic joints in the plane and a revolute one about its normal, with bodies without mass between.
+  /// Adds two prismatic joints in the plane and a revolute one about its normal, with massless bodies between them.
   void add_planar(const std::string& name, const JointInfo& joint, const Vec3& normal) {
     if (hangs_on_bare_root(joint)) return report_free_base(name, joint);
     const Quat turn = turn_between(Vec3::UnitZ(), normal);
@@ -195,8 +195,8 @@ class TreeBuilder {
   Problems& problems_;
   Bodies bodies_;
   std::set<std::string> used_;
-  std::vector<std::string> massless_;              ///< links at the ends of branches that move
-  std::map<std::string, std::string> part_names_;  ///< of joints that move: what the robot calls them
+  std::vector<std::string> massless_;              ///< links without mass at the ends of branches that move
+  std::map<std::string, std::string> part_names_;  ///< the robot's names of joints that move
 };
 
 }  // namespace

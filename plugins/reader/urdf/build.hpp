@@ -7,7 +7,7 @@
 
 namespace muro::urdf {
 
-/// Builds the robot, depth first, children in the order of their joints in the file.
+/// Builds the robot, depth first, with children in the order of their joints in the file.
 void build(const ::urdf::ModelInterface& model, const ModelInfo& info, const Places& places, RobotBuilder& builder,
            Problems& problems);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// <gazebo>: what URDF has no word for, in the terms of SDFormat (sdformat, parser_urdf).
+// Reads <gazebo>: elements that URDF does not have, in the terms of SDFormat (sdformat, parser_urdf).
 #include <utility>
 
 #include "model.hpp"
@@ -46,7 +46,7 @@ class Gazebo {
   }
 
  private:
-  /// A joint with the name of a link is called NAME_joint.
+  /// Returns the robot's name of a joint. A joint with the name of a link is called NAME_joint.
   std::string name_of_part(std::string joint) const {
     if (model_.links.count(joint) == 0) return joint;
     do joint += "_joint";
@@ -104,9 +104,9 @@ class Gazebo {
       joint.spring = model_file::JointSpring{*stiffness, reference};
       problems_.note(location_of(gazebo), fields.owner() + joint.spring->note());
     }
-    // what passes through a joint is measured where its child hangs on it
+    // forces through a joint are measured at its child
     take_sensors(fields, joint.child, false);
-    // links behind fixed joints are bodies of their own
+    // these flags need no report: links behind fixed joints are separate bodies anyway
     for (const char* const kept : {"disableFixedJointLumping", "preserveFixedJoint"}) fields.section(kept);
     fields.skip({"provideFeedback"}, "a `sensor.force_torque` reads what passes through any joint");
     fields.skip(
@@ -129,7 +129,7 @@ class Gazebo {
     add(device);
   }
 
-  /// A robot has one.
+  /// Adds a drive. A robot has only one.
   void take_drive(Element& plugin) {
     const sdf_devices::Device drive = read_plugin(plugin, parts_, messages_);
     if (!drive.subsystems.empty() && std::exchange(has_drive_, true))
@@ -180,8 +180,8 @@ class Gazebo {
   sdf_devices::Messages messages_{problems_, left_out_};
   sdf_devices::PartNames parts_;
   bool is_static_ = false, self_collision_ = false, has_drive_ = false;
-  Location place_;                       ///< of what says so
-  std::vector<std::string> weightless_;  ///< links
+  Location place_;                       ///< location of the first of these flags
+  std::vector<std::string> weightless_;  ///< links without gravity
   Location weightless_place_;
 };
 

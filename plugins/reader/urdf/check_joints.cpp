@@ -16,13 +16,13 @@ namespace {
 constexpr std::array<std::string_view, 6> types = {"fixed",     "revolute", "continuous",
                                                    "prismatic", "planar",   "floating"};
 
-/// One joint on its way through the checks.
+/// Checks of one joint.
 class JointCheck {
  public:
   JointCheck(Element& xml, const std::string& name, Problems& problems)
       : xml_(xml), owner_("joint " + quote(name)), problems_(problems) {}
 
-  /// Nothing when the joint is of no use; the reason is reported.
+  /// Returns nothing if the joint cannot be used; the reason is reported.
   std::optional<JointInfo> run(const ModelInfo& model) {
     info_.location = location_of(xml_);
     info_.xml = &xml_;
@@ -45,7 +45,7 @@ class JointCheck {
     check_limit();
     check_dynamics();
     check_mimic();
-    // of no use here, and urdfdom would give up on a mistake in them
+    // these elements are not used, and urdfdom would stop at a mistake in them
     for (const char* other : {"safety_controller", "calibration"})
       for (Element* e : children(xml_, other)) remove(*e);
     return info_;
@@ -181,7 +181,7 @@ class JointCheck {
                                                        " is negative and taken as 0"));
       dynamics->SetAttribute(attribute, "0");
     }
-    // urdfdom knows no armature, and gives up on <dynamics> with neither of the others
+    // urdfdom does not read armature, and fails on <dynamics> with neither damping nor friction
     if (dynamics->Attribute("armature")) info_.armature = dynamics->DoubleAttribute("armature");
     if (!dynamics->Attribute("damping") && !dynamics->Attribute("friction")) remove(*dynamics);
   }
@@ -206,14 +206,14 @@ class JointCheck {
   JointInfo info_;
 };
 
-/// The joint that <mimic> of `xml` names, or empty.
+/// Returns the name of the joint that <mimic> of `xml` names, or an empty name.
 std::string leader_of(Element& xml) {
   Element* mimic = xml.FirstChildElement("mimic");
   const char* leader = mimic ? mimic->Attribute("joint") : nullptr;
   return leader ? leader : "";
 }
 
-/// Where the limits of a joint let it go.
+/// Returns the range between the limits of a joint.
 model_file::JointRange own_range(const JointInfo& joint) {
   const Element* limit = joint.xml->FirstChildElement("limit");
   if (!limit || joint.type == "continuous") return {};
@@ -224,7 +224,7 @@ model_file::JointRange own_range(const JointInfo& joint) {
   return {bound("lower"), bound("upper")};
 }
 
-/// The same, or where its leader takes it.
+/// Returns the range to which its leader moves a joint, or its own range if it has no leader.
 model_file::JointRange range_of(const ModelInfo& model, const JointInfo& joint) {
   if (const std::string leader = leader_of(*joint.xml); !leader.empty()) {
     const Element& mimic = *joint.xml->FirstChildElement("mimic");
@@ -234,7 +234,7 @@ model_file::JointRange range_of(const ModelInfo& model, const JointInfo& joint) 
   return own_range(joint);
 }
 
-/// Of joints all of whose leaders are there.
+/// Reports mimic joints that their leaders move beyond their limits. All leaders must exist.
 void check_mimic_limits(const ModelInfo& model, Problems& problems) {
   for (const auto& [name, joint] : model.joints) {
     const std::string leader = leader_of(*joint.xml);
@@ -244,7 +244,7 @@ void check_mimic_limits(const ModelInfo& model, Problems& problems) {
   }
 }
 
-/// A name that no joint has yet.
+/// Returns a name that no joint has yet.
 std::string new_joint_name(const ModelInfo& model, const std::string& wanted) {
   std::string name = wanted;
   for (int i = 2; model.joints.count(name) != 0; ++i) name = concat(wanted, "_", i);

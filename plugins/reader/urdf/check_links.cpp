@@ -18,7 +18,7 @@ void check_origin(Element& parent, const std::string& owner, Problems& problems)
   numbers(*origin, "quat_xyzw", 4, owner, problems);
 }
 
-/// Removes an <inertial> that says nothing, or what cannot be; completes one that says part.
+/// Removes an <inertial> that is empty or invalid, completes one that is incomplete.
 void check_inertial(Element& link, const std::string& owner, Problems& all_problems) {
   Problems problems = softened(all_problems, "the link has no mass");
   Element* inertial = only_child(link, "inertial", owner, problems);
@@ -56,7 +56,7 @@ void check_inertial(Element& link, const std::string& owner, Problems& all_probl
   remove(*inertial);
 }
 
-/// One number is that of all three axes, and what follows the third is left out, as in Bullet; urdfdom takes neither.
+/// Writes three numbers, as Bullet reads them: one number is repeated, numbers after the third are dropped.
 void make_three(Element& element, const char* attribute, const std::string& owner, Problems& problems) {
   std::string error;
   const char* text = element.Attribute(attribute);
@@ -70,12 +70,12 @@ void make_three(Element& element, const char* attribute, const std::string& owne
   element.SetAttribute(attribute, three.c_str());
 }
 
-/// That of what tells that a collision or visual is left out.
+/// Returns the severity of a message that a collision or visual is left out.
 Severity severity_of_lost(std::string_view kind) {
   return kind == "collision" ? Severity::lost_collision : Severity::warning;
 }
 
-/// False when no shape can be made of the element; the reason is reported.
+/// Returns false if no shape can be made of the element; the reason is reported.
 bool check_shape(Element& element, const std::string& owner, Problems& problems) {
   check_origin(element, owner, problems);
   Element* geometry = only_child(element, "geometry", owner, problems);
@@ -101,7 +101,7 @@ bool check_shape(Element& element, const std::string& owner, Problems& problems)
     problems.report(lost, location_of(*shape), concat(left_out, "as its <", kind, "> has a size that is not above 0"));
     return false;
   };
-  // what is no number was reported as an error; its value does not matter any more
+  // invalid numbers were reported as errors; the values used instead have no effect
   if (kind == "box") {
     if (lacks("size")) return false;
     const auto size = numbers(*shape, "size", 3, owner, problems).value_or(std::vector<double>{1, 1, 1});
@@ -133,7 +133,7 @@ void take_shapes(Element& link, LinkInfo& info) {
     for (Element* e = link.FirstChildElement(kind); e; e = e->NextSiblingElement(kind)) {
       Element& shape = *e->FirstChildElement("geometry")->FirstChildElement();
       const bool is_capsule = std::string_view(shape.Name()) == "capsule";
-      if (is_capsule) shape.SetName("cylinder");  // urdfdom 3 knows no other
+      if (is_capsule) shape.SetName("cylinder");  // urdfdom 3 reads no capsule
       const char* material = e->Attribute("material");
       shapes.push_back({origin_rotation(*e), location_of(shape), is_capsule, material ? material : ""});
     }
@@ -147,7 +147,7 @@ void take_shapes(Element& link, LinkInfo& info) {
 Quat origin_rotation(const Element& owner) {
   const Element* origin = owner.FirstChildElement("origin");
   std::string error;
-  // of URDF 1.1; it goes before rpy
+  // quat_xyzw of URDF 1.1 has priority over rpy
   if (const char* xyzw = origin ? origin->Attribute("quat_xyzw") : nullptr)
     if (const auto q = model_file::parse_numbers(xyzw, 4, error)) {
       const double length = elementary::hypot(elementary::hypot((*q)[0], (*q)[1]), elementary::hypot((*q)[2], (*q)[3]));

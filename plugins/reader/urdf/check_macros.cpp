@@ -7,12 +7,12 @@ namespace {
 
 bool is_macro(const Element& element) { return std::string_view(element.Name()).starts_with("xacro:"); }
 
-/// Finds what only a macro processor understands: xacro's elements, and ${...} and $(...) in values.
+/// Finds text that only a macro processor understands: xacro's elements, and ${...} and $(...) in values.
 class MacroFinder final : public tinyxml2::XMLVisitor {
  public:
   bool VisitEnter(const Element& element, const tinyxml2::XMLAttribute* attributes) override {
     const std::string_view name = element.Name();
-    // plugins of other simulators may use such text for purposes of their own
+    // plugins of other simulators may use such text for their own purposes
     if (name == "gazebo" || name == "plugin" || name == "transmission") return false;
     if (is_macro(element)) {
       elements.push_back(&element);
@@ -21,7 +21,7 @@ class MacroFinder final : public tinyxml2::XMLVisitor {
     for (const auto* a = attributes; a; a = a->Next()) {
       const std::string_view value = a->Value();
       const std::size_t begin = std::min(value.find("${"), value.find("$("));
-      // a mesh of that name is not found, and told so
+      // a mesh of this name is reported as not found
       if (begin == value.npos || std::string_view(a->Name()) == "filename") continue;
       const std::size_t end = value.find_first_of("})", begin);
       if (expressions++ > 0) continue;
@@ -33,8 +33,8 @@ class MacroFinder final : public tinyxml2::XMLVisitor {
 
   std::vector<const Element*> elements;
   std::size_t expressions = 0;
-  std::string first;  ///< expression
-  Location location;  ///< of it
+  std::string first;  ///< first expression
+  Location location;  ///< location of the first expression
 };
 
 constexpr char advice[] = "run `xacro FILE -o model.urdf` (of ROS, or from `pip install xacro`) and read model.urdf";

@@ -8,7 +8,7 @@ namespace muro::urdf {
 
 namespace {
 
-/// Makes the colour of a material four numbers between 0 and 1. False when there is no colour to show.
+/// Changes the colour of a material to four numbers between 0 and 1. Returns false if there is no colour to show.
 bool check_color(Element& material, const std::string& owner, Problems& problems) {
   Element* color = only_child(material, "color", owner, problems);
   if (!color) return false;
@@ -38,7 +38,7 @@ bool check_color(Element& material, const std::string& owner, Problems& problems
   return true;
 }
 
-/// The name of its picture; empty when it has none.
+/// Returns the name of the picture of a material; empty if there is none.
 std::string texture_of(Element& material, const std::string& owner, Problems& problems) {
   Element* texture = only_child(material, "texture", owner, problems);
   if (!texture) return {};
@@ -48,15 +48,15 @@ std::string texture_of(Element& material, const std::string& owner, Problems& pr
   return {};
 }
 
-/// How what has a material looks: rgba and the name of a picture, either of which may be empty.
+/// Appearance of a material: rgba and the name of a picture. Either may be empty.
 struct Looks {
   std::string color, texture;
 
   bool empty() const { return color.empty() && texture.empty(); }
-  /// As the only children, under no name: what is said here goes before what another place gives the name.
+  /// Writes the only children of a material and removes its name, so that no other definition replaces them.
   void write(Element& material) const {
     material.DeleteChildren();
-    // urdfdom takes a material without a colour for one that is black
+    // urdfdom reads a material without a colour as black
     material.InsertNewChildElement("color")->SetAttribute("rgba", color.empty() ? "1 1 1 1" : color.c_str());
     if (!texture.empty()) material.InsertNewChildElement("texture")->SetAttribute("filename", texture.c_str());
     material.SetAttribute("name", "");
@@ -70,7 +70,7 @@ Looks looks_of(Element& material, const std::string& owner, Problems& problems) 
   return looks;
 }
 
-using Materials = std::map<std::string, Looks>;  ///< by name
+using Materials = std::map<std::string, Looks>;  ///< materials by name
 
 Materials check_global_materials(Element& robot, std::vector<std::string>& plain, Problems& problems) {
   Materials materials;
@@ -112,7 +112,7 @@ void check_materials(Element& robot, Problems& problems) {
       visual->DeleteAttribute("material");
       if (!material) continue;
       const char* name = material->Attribute("name");
-      if (name) visual->SetAttribute("material", name);  // for check_links: the material itself loses it
+      if (name) visual->SetAttribute("material", name);  // for check_links, as the material loses its name
       if (const Looks looks = looks_of(*material, owner, problems); !looks.empty()) {
         if (name && *name) materials.try_emplace(name, looks);
         looks.write(*material);

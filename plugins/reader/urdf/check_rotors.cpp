@@ -5,7 +5,7 @@ namespace muro::urdf {
 
 namespace {
 
-/// The attribute `value` of a child of `actuator`, 0 or more; nothing where there is none or it is of no use.
+/// Returns the attribute `value` of a child of `actuator`, 0 or more; nothing if it is missing or invalid.
 std::optional<double> rotor_value(Element& actuator, const char* name, const std::string& owner, Problems& problems) {
   Element* e = only_child(actuator, name, owner, problems);
   if (!e) return std::nullopt;
@@ -18,7 +18,7 @@ std::optional<double> rotor_value(Element& actuator, const char* name, const std
   return std::nullopt;
 }
 
-/// Of an actuator: what its joint feels of its rotor, kg m^2 or kg.
+/// Returns the reflected inertia of an actuator's rotor at its joint, kg m^2 or kg.
 std::optional<double> reflected_inertia(Element& actuator, const std::string& owner, Problems& problems) {
   const auto inertia = rotor_value(actuator, "drake:rotor_inertia", owner, problems);
   if (!inertia) return std::nullopt;
@@ -28,7 +28,7 @@ std::optional<double> reflected_inertia(Element& actuator, const std::string& ow
   return *ratio * *ratio * *inertia;
 }
 
-/// The joint that a transmission moves, if it is one that can have a rotor.
+/// Returns the joint that a transmission moves; null, with a warning, if there is none that can have a rotor.
 JointInfo* moved_joint(Element& transmission, const std::string& owner, ModelInfo& model, Problems& problems) {
   const std::vector<Element*> joints = children(transmission, "joint");
   const char* name = joints.size() == 1 ? joints.front()->Attribute("name") : nullptr;

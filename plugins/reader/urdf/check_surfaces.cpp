@@ -18,7 +18,7 @@ constexpr Range friction_range = {limits::friction, "from 0 to 1e20"};
 constexpr Range restitution_range = {1, "between 0 and 1"};
 constexpr Range resistance_range = {limits::max_size, "from 0 to 1e6 m"};
 
-/// The value of <name>0.8</name> or <name value="0.8"/>, anywhere below `parent`.
+/// Returns the value of <name>0.8</name> or <name value="0.8"/>, anywhere below `parent`.
 std::optional<double> value_below(Element& parent, const char* name, const std::string& owner, Problems& problems) {
   for (Element* e = parent.FirstChildElement(); e; e = e->NextSiblingElement()) {
     if (std::string_view(e->Name()) != name) {
@@ -35,7 +35,7 @@ std::optional<double> value_below(Element& parent, const char* name, const std::
   return std::nullopt;
 }
 
-/// Takes the value of <name> below `parent` if there is one, and it is in its range.
+/// Takes the value of <name> below `parent` if it exists and is in its range.
 void take(Element& parent, const char* name, const Range& range, const std::string& owner, std::optional<double>& taken,
           Problems& problems) {
   const auto value = value_below(parent, name, owner, problems);
@@ -46,7 +46,7 @@ void take(Element& parent, const char* name, const Range& range, const std::stri
     problems.warning(location_of(parent), concat(owner, ": ", name, " ", *value, " is ignored; it is ", range.text));
 }
 
-/// <contact> of a link, as Bullet and PyBullet read it.
+/// Reads <contact> of a link as Bullet and PyBullet do.
 void take_contact(Element& contact, const std::string& owner, Surface& surface, Problems& problems) {
   take(contact, "lateral_friction", friction_range, owner, surface.friction, problems);
   take(contact, "restitution", restitution_range, owner, surface.restitution, problems);

@@ -28,7 +28,7 @@ class TreeCheck {
   }
 
  private:
-  /// The first joint that leads to a link is the one that counts.
+  /// Connects links by joints. Only the first joint that leads to a link counts.
   void connect() {
     for (const std::string& name : model_.joint_order) {
       const JointInfo& joint = model_.joints.at(name);
@@ -54,7 +54,7 @@ class TreeCheck {
     return roots;
   }
 
-  /// Links that hang on `root`, with it, none of which has been reached before.
+  /// Returns the number of links in the tree of `root` that have not been reached before, and marks them.
   std::size_t reach(const std::string& root) {
     std::size_t count = 0;
     std::vector<std::string> open{root};
@@ -68,7 +68,7 @@ class TreeCheck {
     return count;
   }
 
-  /// What no root leads to hangs on itself: the first link of each loop becomes a root.
+  /// Cuts loops that no root leads to: the first link of each loop becomes a root.
   void open_loops(std::vector<std::string>& roots) {
     for (const std::string& root : roots) sizes_[root] = reach(root);
     for (const std::string& name : in_file_) {
@@ -87,7 +87,7 @@ class TreeCheck {
     }
   }
 
-  /// The one that most hangs on.
+  /// Chooses the root with the largest tree.
   void choose_root(const std::vector<std::string>& roots) {
     model_.root = *std::max_element(roots.begin(), roots.end(), [&](const std::string& a, const std::string& b) {
       return sizes_.at(a) < sizes_.at(b);
@@ -125,7 +125,7 @@ class TreeCheck {
   Problems& problems_;
   std::vector<std::string> in_file_;  ///< links, in the order of the file
   std::set<std::string> reached_;
-  std::map<std::string, std::size_t> sizes_;  ///< of the trees, by their root
+  std::map<std::string, std::size_t> sizes_;  ///< sizes of the trees by their roots
 };
 
 }  // namespace

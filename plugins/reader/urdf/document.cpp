@@ -15,8 +15,8 @@ Location location_at(const std::string& text, std::size_t index) {
   return {int(lines) + 1, int(index - (text.rfind('\n', index) + 1)) + 1};  // npos + 1 is 0
 }
 
-/// A declaration <?xml ... ?> stands at the very beginning or nowhere. Those elsewhere, as behind a comment that a
-/// macro processor has put first, are read by ROS and become blanks here.
+/// Replaces by blanks each declaration <?xml ... ?> that is not at the very beginning of the file, for example after a
+/// comment of a macro processor. ROS accepts them.
 void blank_stray_declarations(std::string& text, Problems& problems) {
   const std::size_t start = text.find_first_not_of(" \t\r\n");
   for (std::size_t at = text.find("<?xml "); at != text.npos; at = text.find("<?xml ", at + 1)) {
@@ -30,7 +30,7 @@ void blank_stray_declarations(std::string& text, Problems& problems) {
   }
 }
 
-/// What ROS does not read: text behind the robot.
+/// Removes text after the robot, which ROS does not read.
 void cut_text_behind(std::string& text, Problems& problems) {
   constexpr std::string_view end = "</robot>";
   const std::size_t at = text.rfind(end);
@@ -93,7 +93,7 @@ std::optional<std::vector<double>> numbers(Element& element, const char* attribu
   if (!text) return std::nullopt;
   std::string error;
   auto values = model_file::parse_numbers(text, count, error);
-  const bool is_value = std::string_view(attribute) == "value";  // of <mass value="..."/>
+  const bool is_value = std::string_view(attribute) == "value";  // <mass value="..."/>
   const char* const quantity = is_value ? element.Name() : attribute;
   if (values) {
     model_file::drop_tiny_sizes(quantity, *values);

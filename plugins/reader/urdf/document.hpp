@@ -22,11 +22,11 @@ using model_file::shortest;
 /// A file that holds a <robot>.
 class Document {
  public:
-  /// False, with an error reported, when `text` is not well-formed or holds no <robot>.
+  /// Reports an error and returns false if `text` is not well-formed or holds no <robot>.
   bool parse(std::string text, Problems& problems);
   /// The <robot> element; valid after parse returned true.
   Element& robot() { return *robot_; }
-  /// The <robot> element as text.
+  /// Returns the <robot> element as text.
   std::string printed() const;
 
  private:
@@ -34,20 +34,20 @@ class Document {
   Element* robot_ = nullptr;
 };
 
-/// The only child named `name`, or null. More than one: a warning, and all but the first are deleted,
-/// as urdfdom looks at no others. `owner` is who the message names: "link `wheel`".
+/// Returns the first child named `name`, or null. If there are several, warns and deletes the others, as urdfdom reads
+/// only the first. `owner`: name of the parent in the message: "link `wheel`".
 Element* only_child(Element& parent, const char* name, const std::string& owner, Problems& problems);
 
 void remove(Element& element);
 
-/// Problems to `problems`, with errors `as` something milder that ends in `consequence`; found_error() tells whether
-/// there were any.
+/// Returns a receiver that passes problems on to `problems`, with errors changed to severity `as` and followed by
+/// `consequence`. Its found_error() returns whether there were errors.
 Problems softened(Problems& problems, const std::string& consequence, Severity as = Severity::warning);
 
-/// The value of an attribute that is one finite number, which is then rewritten in a form that every
-/// parser reads alike. Nothing when the attribute is missing, or is no number; the latter is an error.
+/// Returns the value of an attribute that is one finite number, and rewrites it so that all parsers read it alike.
+/// Returns nothing if the attribute is missing or is no number; the latter is an error.
 std::optional<double> number(Element& element, const char* attribute, const std::string& owner, Problems& problems);
-/// As `number`, for `count` numbers separated by blanks.
+/// Reads `count` numbers separated by blanks, see `number`.
 std::optional<std::vector<double>> numbers(Element& element, const char* attribute, std::size_t count,
                                            const std::string& owner, Problems& problems);
 void set(Element& element, const char* attribute, double value);

@@ -9,7 +9,7 @@ namespace muro::urdf {
 
 namespace {
 
-/// What the <robot> element itself may have wrong, as far as urdfdom cares.
+/// Checks the attributes of the <robot> element that urdfdom reads.
 void check_robot(Element& robot, Problems& problems) {
   const Location location = location_of(robot);
   if (!robot.Attribute("name")) {
@@ -36,8 +36,8 @@ void read_text(std::string bytes, const std::filesystem::path& folder, RobotBuil
   Element& robot = document.robot();
   if (!take_macros(robot, problems)) return;
 
-  // urdfdom stops at the first mistake, or passes over it, and knows no lines. So the checks come first, find
-  // all there is, and leave a document that urdfdom accepts.
+  // urdfdom stops at the first mistake or ignores it, and reports no lines. So the checks run before it, report all
+  // mistakes, and leave a document that urdfdom accepts.
   ModelInfo info;
   check_robot(robot, problems);
   check_materials(robot, problems);

@@ -14,7 +14,7 @@
 
 namespace muro::urdf {
 
-/// Links that weigh something.
+/// Two links that have a mass.
 inline constexpr char body_a[] =
     "<link name='a'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
     "izz='1'/></inertial></link>";
@@ -30,7 +30,7 @@ class RecordingBuilder final : public RobotBuilder {
   std::map<std::string, JointLimits> limits;
   std::map<std::string, Inertia> inertials;
   std::map<std::string, std::vector<Shape>> collisions, visuals;
-  std::map<std::string, std::vector<std::string>> materials;  ///< of visuals, by body
+  std::map<std::string, std::vector<std::string>> materials;  ///< materials of visuals, by body
   std::vector<std::string> texts{""};
   std::vector<std::string> subsystems;         ///< "laser: {use: laser.embree, ...}"
   std::vector<std::int32_t> subsystem_places;  ///< line, column

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The components of the reader by themselves.
+// The components of the reader, each tested alone.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -24,7 +24,7 @@ using model_file::TensorError;
 using model_file::uniform_density_inertia;
 using Lines = std::vector<std::string>;
 
-/// A folder that is gone after the test.
+/// A folder that is removed after the test.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -191,7 +191,7 @@ TEST(UrdfInertia, UniformDensityGivesTheTextbookTensor) {
   EXPECT_NEAR(one(sphere, 3).izz, 0.4 * 3 * 0.25, 1e-12);
   EXPECT_NEAR(one(cylinder, 5).izz, 0.5 * 5 * 0.09, 1e-12);
   EXPECT_NEAR(one(cylinder, 5).ixx, 5 * (3 * 0.09 + 4) / 12, 1e-12);
-  // two equal balls on a bar without mass: Steiner
+  // two equal balls on a bar without mass: Steiner's theorem
   Shape balls[] = {sphere, sphere};
   balls[0].origin.position = {2, 0, 0};
   balls[1].origin.position = {-2, 0, 0};

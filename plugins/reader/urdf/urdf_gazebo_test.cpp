@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// <gazebo> blocks: in the terms of SDFormat's specification (sdformat.org/spec) and of sdformat's parser_urdf.
+// <gazebo> blocks, in the terms of SDFormat's specification (sdformat.org/spec) and of sdformat's parser_urdf.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-/// A robot of two links and a hinge `j`, with this behind them, from line 2 on.
+/// Returns a robot of two links and a hinge `j`, followed by `gazebo` from line 2 on.
 RecordingBuilder with(const std::string& gazebo) {
   return recorded(concat("<robot name='r'>", body_a, link_b,
                          "<joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint>\n", gazebo,

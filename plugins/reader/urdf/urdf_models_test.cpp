@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What robots come out of the example models and of small URDF documents.
+// Robots from the example models and from small URDF documents.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -26,7 +26,7 @@ RecordingBuilder recorded_file(const std::string& name) {
   return builder;
 }
 
-/// A robot of body `a`, and of what `more` adds to it.
+/// Returns a robot of body `a` and the elements `more`.
 RecordingBuilder with_body_a(const std::string& more) {
   return recorded("<robot name='r'>\n" + std::string(body_a) + "\n" + more + "\n</robot>");
 }
@@ -115,7 +115,7 @@ TEST(UrdfModels, EveryExampleIsReadThroughThePluginWithItsMassAndJoints) {
     double mass;
     std::size_t links, joints, problems;
   };
-  // the planar joint of the air table is reported
+  // the only problem is the planar joint of the air table
   const Expected expected[] = {
       {"rover", 5.36, 6, 4, 0},       {"pendulum", 6.1, 3, 1, 0},          {"arm", 7.41, 8, 7, 0},
       {"quadruped", 12, 17, 12, 0},   {"biped", 4.06, 23, 20, 0},          {"air_table", 14.07, 7, 6, 1},
@@ -171,7 +171,7 @@ TEST(UrdfModels, AnOriginIsATranslationAndThenARollPitchYawRotation) {
   EXPECT_EQ(robot.calls, (Lines{"base a", "translation 1 2 3", "rotation", "body b"}));
   ASSERT_EQ(robot.rotations.size(), 1u);
   const double c = std::cos(0.3), d = std::sin(0.3);
-  // Rz(0.3) Ry(0.2) Rx(0.1) takes x to the first column of Rz Ry
+  // Rz(0.3) Ry(0.2) Rx(0.1) maps x to the first column of Rz Ry
   EXPECT_TRUE(
       (robot.rotations[0] * Vec3::UnitX()).isApprox(Vec3(c * std::cos(0.2), d * std::cos(0.2), -std::sin(0.2)), 1e-14));
   EXPECT_TRUE(robot.rotations[0].isApprox(from_rpy(0.1, 0.2, 0.3), 1e-14));
@@ -330,7 +330,7 @@ TEST(UrdfModels, AQuaternionOfUrdf11TurnsAsRpyDoes) {
                     "/></joint></robot>")
         .rotations.at(0);
   };
-  const Quat given = rotation("quat_xyzw='0 0 2 2'");  // need not be of length 1
+  const Quat given = rotation("quat_xyzw='0 0 2 2'");  // the length need not be 1
   EXPECT_NEAR(std::abs(given.dot(rotation("rpy='0 0 1.5707963267948966'"))), 1, 1e-15);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every mistake is reported in full, with its location, and all mistakes of a file at once.
+// Every mistake is reported completely, with its location, and all mistakes of a file at once.
 #include <gtest/gtest.h>
 
 #include <clocale>
@@ -12,17 +12,17 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-/// Robots whose line 2 is body `a`; `more` begins at line 3, column 1.
+/// Returns the problems of a robot with body `a` in line 2; `more` begins at line 3, column 1.
 Lines problems_of(const std::string& more) {
   return recorded("<robot name='r'>\n" + std::string(body_a) + "\n" + more + "\n</robot>").problems;
 }
-/// With a second body `b` in line 3; `joint` begins at line 4.
+/// Returns the problems of a robot with a second body `b` in line 3; `joint` begins at line 4.
 Lines joint_problems(const std::string& joint) { return problems_of(std::string(link_b) + "\n" + joint); }
-/// A joint between the two, with `inside`.
+/// Returns a joint between the two bodies, with the elements `inside`.
 std::string joint(const std::string& type, const std::string& inside) {
   return "<joint name='j' type='" + type + "'><parent link='a'/><child link='b'/>" + inside + "</joint>";
 }
-/// A link `b`, fixed to `a`, with `inside`; in line 3.
+/// Returns a link `b`, fixed to `a`, with the elements `inside`; it is in line 3.
 std::string link(const std::string& inside) {
   return "<link name='b'>" + inside + "</link><joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>";
 }
@@ -359,7 +359,7 @@ TEST(UrdfProblems, MimicsThatFollowNobody) {
 }
 
 TEST(UrdfProblems, LeadersThatTakeMimicsBeyondTheirLimits) {
-  // of mimic joints alone: these links have no mass, either
+  // keeps messages about mimic joints only: these links also have no mass
   const auto problems = [](const std::string& follower) {
     Lines all = recorded(
                     "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
@@ -470,7 +470,7 @@ TEST(UrdfProblems, AllMistakesOfAFileAreToldAtOnceAndAnErrorBuildsNothing) {
   EXPECT_EQ(robot.calls, Lines{});
 }
 
-/// A locale whose decimal sign is a comma, on every machine.
+/// A locale with a comma as decimal sign, available on every machine.
 class CommaPunctuation final : public std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
   char do_thousands_sep() const override { return '.'; }

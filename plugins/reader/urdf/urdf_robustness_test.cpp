@@ -12,7 +12,7 @@
 namespace muro::urdf {
 namespace {
 
-/// A chain of `count` links; the order of the names is not that of the chain.
+/// Returns a chain of `count` links; the order of the names is not the order of the chain.
 std::string chain(int count) {
   std::string urdf = "<robot name='chain'>\n";
   const auto name = [](int i) { return concat("link", i); };
@@ -26,7 +26,7 @@ std::string chain(int count) {
   return urdf + "</robot>\n";
 }
 
-/// Runs `work` on a stack of 256 KiB, on which recursion over the links would end early.
+/// Runs `work` on a stack of 256 KiB, on which recursion over the links would overflow.
 template <class Work>
 void with_small_stack(Work work) {
   pthread_attr_t attributes;
@@ -77,11 +77,11 @@ TEST(UrdfRobustness, DeeplyNestedElementsAreAnErrorNotAnOverflow) {
   EXPECT_EQ(robot.problems[0], "error 1:0 the file is not well-formed XML: elements are nested more than 100 deep");
 }
 
-/// One random damage: a bit, a byte, a cut part, a doubled part, a swapped pair of words.
+/// Applies one random damage: a bit, a byte, a cut part, a doubled part, a swapped pair of words.
 void damage(std::string& text, std::mt19937& random) {
   const auto below = [&random](std::size_t n) { return std::size_t(random() % std::max<std::size_t>(n, 1)); };
   const std::size_t at = below(text.size());
-  /// From a `<` to behind the `>` that follows.
+  /// Returns begin and length of a tag, from its `<` to its `>`.
   const auto tag_from = [&](std::size_t from) {
     const std::size_t open = text.find('<', from);
     if (open == text.npos) return std::pair(std::size_t(0), std::size_t(0));
@@ -142,7 +142,7 @@ TEST(UrdfRobustness, DamagedRoversAreReportedOrBuiltSoundly) {
       continue;
     }
     (tree.problems().empty() ? clean : warned)++;
-    // what the reader lets pass, the host can use
+    // the host can use everything that the reader accepts
     tree.close();
     ASSERT_TRUE(tree.usable()) << "variant " << variant << ": " << tree.problems().back().text << "\n" << text;
     for (const auto& flat : tree.links()) {

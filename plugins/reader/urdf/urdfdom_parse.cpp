@@ -13,8 +13,8 @@ namespace {
 
 namespace bridge = console_bridge;
 
-/// Takes what urdfdom prints, while it lives. The output of console_bridge is one for the process, so only
-/// one thread may listen at a time.
+/// Receives the messages of urdfdom during its life. console_bridge has one output for the process, so only one thread
+/// may listen at a time.
 class Listener final : public bridge::OutputHandler {
  public:
   struct Message {
@@ -71,7 +71,7 @@ std::shared_ptr<const ::urdf::ModelInterface> parse_with_urdfdom(const std::stri
     if (!problems.found_error()) problems.error({}, "urdfdom cannot read the model and gives no reason");
     return nullptr;
   }
-  // Links own their children: without this, a chain of links is freed by recursion as deep as it is long.
+  // Links own their children. Without this, freeing a chain of links recurses as deep as the chain is long.
   auto* raw = model.get();
   return {raw, [model = std::move(model)](const ::urdf::ModelInterface*) mutable {
             for (auto& [name, link] : model->links_) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A bumper: whether something touches a link.
+// A bumper: reads whether an object touches a link.
 #include <algorithm>
 #include <cmath>
 
@@ -37,11 +37,11 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-/// What is kept of a bumper.
+/// Data of one bumper.
 struct Bumper {
   ObjectId link = no_object;
-  ListIn<Contact> places;  ///< where a robot touches that no force moves; none where its bumper compares forces
-  LinkContacts contacts;   ///< with their forces
+  ListIn<Contact> places;  ///< contacts of a robot that no force moves; unset if the bumper compares forces
+  LinkContacts contacts;   ///< contacts with their forces
   Out<std::uint32_t> pressed;
 };
 
@@ -72,7 +72,7 @@ class BumperSensor final : public PerRobotAlgorithm<Bumper> {
     return b;
   }
 
-  /// What forces move pushes it with its force; for all else there is the place alone.
+  /// Connects a robot that no force moves. Bodies that forces move push it with a force; other contacts have none.
   void connect_kinematic(Connector& c, const RobotView& view, Bumper& b) {
     const bool compares = c.parameters().real("threshold") > 0;
     if (compares && b.contacts.any()) return;

@@ -43,22 +43,22 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-/// One joint and where its readings go.
+/// One joint and the destination of its readings.
 struct Channel {
   JointMotion joint;
   double step = 0;      ///< rad or m; 0: none
-  double per_turn = 0;  ///< steps of a turn of the encoder, where it is absolute within one; 0: readings do not wrap
+  double per_turn = 0;  ///< steps of a turn of an encoder that is absolute within one turn; 0: readings do not wrap
   double *position = nullptr, *velocity = nullptr;
   std::int64_t* count = nullptr;
 
   double steps_at(double position_of_joint) const { return std::floor(position_of_joint / step + 0.5); }
   double wrapped(double steps) const { return per_turn == 0 ? steps : steps - per_turn * std::floor(steps / per_turn); }
-  /// The shorter way round.
+  /// Returns the shorter way round.
   double moved(double steps) const {
     return per_turn == 0 ? steps : steps - per_turn * std::floor(steps / per_turn + 0.5);
   }
 
-  /// `is_first`: there is no reading to take a difference from.
+  /// `is_first`: there is no earlier reading for a difference.
   void read(bool is_first, double dt) const {
     const double q = joint.position(), v = joint.velocity();
     if (step == 0) {
@@ -114,7 +114,7 @@ class Encoder final : public PerRobotAlgorithm<Range> {
       c.set(item.object, keys::encoder_joint, all[links.front()].joint_object);
   }
 
-  /// The steps of an encoder on a joint.
+  /// Returns a channel with the steps of an encoder on a joint.
   static Channel steps_of(const Parameters& p, const Link& link, std::string_view joint) {
     const auto counts = double(p.integer("counts"));
     if (counts > 0 && p.given("resolution"))

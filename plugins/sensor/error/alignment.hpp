@@ -10,18 +10,18 @@
 
 namespace muro {
 
-/// What a run draws once: a normal number of which a data sheet's limits are three standard deviations.
+/// Number of standard deviations of a limit in a data sheet. Values of a run are drawn from a normal distribution.
 inline constexpr double tolerance_in_deviations = 3;
 
 /// Scale, misalignment and g-sensitivity: y = (I + S + M) x + G f, with S diagonal, M without diagonal and the specific
-/// force f. S and M have a part that is given and a part that is drawn once a run. M and G belong to vectors (Vec3).
+/// force f. S and M have a given part and a part that is drawn once a run. M and G are for vectors (Vec3) only.
 class Alignment {
  public:
   struct Settings {
     PerComponent scale{}, scale_tolerance{};       ///< 1
     std::array<double, 6> misalignment{};          ///< 1: xy, xz, yx, yz, zx, zy
     std::array<double, 6> cross_axis_tolerance{};  ///< 1, in the same order
-    Mat3 g_sensitivity = Mat3::Zero();             ///< unit of the reading by m/s^2
+    Mat3 g_sensitivity = Mat3::Zero();             ///< unit of the reading / (m/s^2)
   };
 
   Alignment() = default;
@@ -39,7 +39,7 @@ class Alignment {
   bool is_active() const { return scales_ || feels_force_; }
   bool feels_force() const { return feels_force_; }
 
-  /// Draws what holds for the whole run.
+  /// Draws the values of the whole run.
   void begin(std::span<double> state, std::uint64_t seed) const {
     if (!scales_) return;
     const Random random(seed, key_, 0);
@@ -50,7 +50,7 @@ class Alignment {
           settings_.misalignment[k] + drawn(random, components_ + k, settings_.cross_axis_tolerance[k]);
   }
 
-  /// `force`: specific force, m/s^2; null where there is none.
+  /// `force`: specific force, m/s^2; null if there is none.
   void apply(std::span<double> values, std::span<const double> state, const Vec3* force) const {
     if (turns_) {
       turn(values, state);

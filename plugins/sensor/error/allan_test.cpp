@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Allan deviations of simulated devices against the closed forms of their processes. Bounds are three standard
+// Allan deviations of simulated devices, compared with the closed forms of their processes. Bounds are three standard
 // deviations of the estimate; seeds are fixed.
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ void expect_allan(const std::vector<double>& y, std::size_t m, double variance, 
   EXPECT_NEAR(std::sqrt(allan_variance(y, m)), expected, expected * (3 * allan_error(y.size(), m) + also)) << "m " << m;
 }
 
-/// Of a first-order autoregressive process with innovations of standard deviation u (Zhang 2008).
+/// Allan variance of a first-order autoregressive process with innovations of standard deviation u (Zhang 2008).
 double autoregressive_allan(double phi, double u, double m) {
   const double numerator = m - 3 * phi - m * phi * phi + 4 * std::pow(phi, m + 1) - std::pow(phi, 2 * m + 1);
   return u * u * numerator / (m * m * (1 - phi) * (1 - phi) * (1 - phi * phi));
@@ -117,14 +117,14 @@ TEST(AllanDeviation, OfAResolutionIsThatOfWhiteNoise) {
   for (const std::size_t m : {1, 10, 100}) expect_allan(y, m, step * step / (12 * double(m)));
 }
 
-/// Correlation at a lag, about the true mean 0.
+/// Returns the correlation at a lag, about the true mean 0.
 double correlation_at(const std::vector<double>& y, std::size_t lag) {
   double sum = 0;
   for (std::size_t k = lag; k < y.size(); ++k) sum += y[k] * y[k - lag];
   return sum / double(y.size() - lag);
 }
 
-// hector's plugin multiplies the driving noise by the period, PX4's decays by 1/60 an update whatever the period
+// hector's plugin multiplies the driving noise by the period; PX4's bias decays by 1/60 an update at any period
 TEST(GaussMarkovBias, HasOneAutocorrelationAt1HzAndAt10Hz) {
   const double s = 2, t = 8, duration = 60000;
   for (const double rate : {1.0, 10.0}) {
@@ -139,7 +139,7 @@ TEST(GaussMarkovBias, HasOneAutocorrelationAt1HzAndAt10Hz) {
   }
 }
 
-// Pegasus has uniform numbers in the place of normal ones
+// Pegasus uses uniform instead of normal numbers
 TEST(GaussMarkovBias, IsNormal) {
   std::vector<double> starts, later;
   for (std::uint64_t seed = 1; seed <= 20000; ++seed) {

@@ -22,11 +22,11 @@ namespace muro {
 class BiasDrift {
  public:
   struct Settings {
-    PerComponent random_walk{};                  ///< K, unit of the reading by s sqrt(Hz)
+    PerComponent random_walk{};                  ///< K, unit of the reading / (s sqrt(Hz))
     PerComponent gauss_markov_sigma{};           ///< s, stationary standard deviation, unit of the reading
     double gauss_markov_time = 0;                ///< T, s
     PerComponent bias_instability{};             ///< B, unit of the reading
-    double flicker_from = 1, flicker_to = 1000;  ///< s: where the Allan deviation of flicker is flat
+    double flicker_from = 1, flicker_to = 1000;  ///< s: range in which the Allan deviation of flicker is flat
   };
 
   BiasDrift() = default;
@@ -48,7 +48,7 @@ class BiasDrift {
 
   bool is_active() const { return !families_.empty(); }
 
-  /// Puts all processes where they may be at the start of a run.
+  /// Draws the states of all processes at the start of a run.
   void begin(std::span<double> state, std::uint64_t seed) const {
     for (const Family& f : families_) {
       const Random random(seed, fnv1a("at the start", f.key), 0);
@@ -56,7 +56,7 @@ class BiasDrift {
     }
   }
 
-  /// From one sample to the next.
+  /// Advances the processes from one sample to the next.
   void advance(std::span<double> state, std::uint64_t seed, std::uint64_t step) const {
     for (const Family& f : families_) {
       const Random random(seed, f.key, step);
@@ -64,7 +64,7 @@ class BiasDrift {
     }
   }
 
-  /// The present bias of a component.
+  /// Returns the present bias of a component.
   double at(std::size_t component, std::span<const double> state) const {
     double sum = 0;
     for (const Family& f : families_) {
@@ -76,7 +76,7 @@ class BiasDrift {
   }
 
  private:
-  /// For an amplitude of 1.
+  /// A process with the amplitude 1.
   struct Process {
     double decay, innovation, start;
   };

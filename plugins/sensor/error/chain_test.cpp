@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The order of the chain: a case for each pair of neighbours whose exchange changes the reading.
+// The order of the chain: one case for each pair of adjacent stages that changes the reading if it is exchanged.
 #include <gtest/gtest.h>
 
 #include "chain_testing.hpp"
@@ -14,8 +14,8 @@ using test::readings;
 
 TEST(ErrorChainOrder, BandwidthComesBeforeMisalignment) {
   ErrorSettings s;
-  s.bandwidth = PerComponent(std::vector<double>{1, 0, 0});  // of x alone
-  s.alignment.misalignment = {0, 0, 1, 0, 0, 0};             // y reads x too
+  s.bandwidth = PerComponent(std::vector<double>{1, 0, 0});  // of x only
+  s.alignment.misalignment = {0, 0, 1, 0, 0, 0};             // y also reads x
   Device device(s, 3, 100);
   device.read({0, 0, 0});
   const auto y = device.read({1, 0, 0});
@@ -76,7 +76,7 @@ TEST(ErrorChainOrder, DelayComesBeforeDropouts) {
     EXPECT_EQ(a[k] == -1, b[k] == -1) << "lost when it would arrive, not 3 samples later";
 }
 
-// Pegasus adds no accelerometer bias, and drifts the gyro with the time constant of the accelerometer
+// Pegasus adds no accelerometer bias, and its gyro drifts with the time constant of the accelerometer
 TEST(ErrorChain, AddsEveryKindOfBiasToTheReading) {
   const auto deviation = [](const ErrorSettings& s) {
     std::vector<double> all;
@@ -93,7 +93,7 @@ TEST(ErrorChain, AddsEveryKindOfBiasToTheReading) {
 }
 
 TEST(ErrorChain, DrawsIndependentNumbersForItsStages) {
-  // what one stage draws does not depend on whether there are others
+  // the numbers that one stage draws do not depend on other stages
   const ErrorSettings noise{.noise = {.density = 1}};
   ErrorSettings all = noise;
   all.drift = {.gauss_markov_sigma = 1, .gauss_markov_time = 5};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs of a chain of errors, and what is estimated from them.
+// Runs a chain of errors, and estimates statistics of its readings.
 #pragma once
 
 #include <cmath>
@@ -34,7 +34,7 @@ class Device {
   std::uint64_t seed_, index_ = 0;
 };
 
-/// What a device of one component reads of `truth(k)`, sample by sample.
+/// Returns the readings that a device of one component makes of `truth(k)`, sample by sample.
 inline std::vector<double> readings(const ErrorSettings& settings, double rate, std::size_t count,
                                     const std::function<double(std::size_t)>& truth, std::uint64_t seed = 1) {
   Device device(settings, 1, rate, seed);
@@ -54,7 +54,7 @@ inline double mean_of(const std::vector<double>& y) {
   return sum / double(y.size());
 }
 
-/// About the mean.
+/// Returns the central moment.
 inline double moment_of(const std::vector<double>& y, int power) {
   const double mean = mean_of(y);
   double sum = 0;

@@ -9,8 +9,8 @@
 
 namespace muro {
 
-/// What was put in some time ago: the bits of the newest sample that is at least as old as the delay, as a device hands
-/// out whole readings. Until the line is full it holds the first sample.
+/// A delay. Returns the bits of the newest sample that is at least as old as the delay, as a device reports whole
+/// readings. Until the line is full it returns the first sample.
 class DelayLine {
  public:
   DelayLine() = default;
@@ -26,7 +26,7 @@ class DelayLine {
   }
 
   bool is_active() const { return whole_ > 0; }
-  /// Samples that the line holds.
+  /// Returns the number of samples that the line holds.
   static double samples(double delay, double period) { return delay / period + 2; }
 
   void apply(std::span<double> values, std::span<double> state, bool first) const {

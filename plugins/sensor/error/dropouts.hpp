@@ -8,16 +8,16 @@
 
 namespace muro {
 
-/// Readings that are lost, each with the same probability and independently. In an array, such as a scan, every element
-/// is lost by itself; the components of one value (Vec3, Twist, Wrench) are lost together, as one message. A lost
-/// reading is `value`, or the one before it that was not lost.
+/// Lost readings. Each is lost with the same probability, independently of the others. In an array, such as a scan,
+/// every element is lost independently; the components of one value (Vec3, Twist, Wrench) are lost together, as one
+/// message. A lost reading is `value`, or the last reading that was not lost.
 class Dropouts {
  public:
   struct Settings {
     double probability = 0;  ///< 0 .. 1
     double value = 0;        ///< unit of the reading
-    bool hold = false;       ///< the reading before stays
-    bool together = false;   ///< all components are lost at once
+    bool hold = false;       ///< keep the last reading
+    bool together = false;   ///< lose all components at once
   };
 
   Dropouts() = default;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the true reading of a sensor to the device's; see README.md.
+// Computes the reading of a device from the true reading of a sensor; see README.md.
 #include <array>
 #include <optional>
 #include <string>
@@ -106,9 +106,9 @@ class SensorError final : public Algorithm {
   struct Channel {
     ErrorChain chain;
     std::span<double> state{};
-    ArrayIn<double> truths{};  ///< and measured: of an array
+    ArrayIn<double> truths{};  ///< truths and measured: only for an array
     ArrayOut<double> measured{};
-    const double* single_truth = nullptr;  ///< else, with its components
+    const double* single_truth = nullptr;  ///< single_truth and single_measured: for all others, with their components
     double* single_measured = nullptr;
     std::size_t numbers = 1;
     NeighbourErrors neighbours{};
@@ -130,7 +130,7 @@ class SensorError final : public Algorithm {
     set_limits(c, object, given, shape, settings);
     const double period = c.rate() > 0 ? 1 / c.rate() : 0;
     check_delay(given, settings.delay, shape, period);
-    // of one robot, sensors and readings each have numbers of their own
+    // sensors and readings of one robot have different random numbers
     const std::uint64_t key = fnv1a(shape.name, fnv1a(c.object_name(object), c.random_key(item)));
     const auto form = shape.has_orientation() ? ErrorChain::Form::with_orientation : ErrorChain::Form::numbers;
     Channel channel{.chain = ErrorChain(settings, shape.components, period, key, form)};
@@ -203,7 +203,7 @@ class SensorError final : public Algorithm {
     throw Error("pointing needs the angle of incidence of the rays: give the laser `incidence: true`");
   }
 
-  /// None where a part has a g-sensitivity, and the object no specific force to feel.
+  /// Returns none, with a log message, if a part has a g-sensitivity but the object has no specific force.
   static In<Vec3> find_force(Connector& c, ObjectId object, const GivenErrors& given) {
     constexpr std::string_view name = "linear_acceleration";
     if (const auto found = find_value<Vec3>(c, object, name)) return In<Vec3>(c.read_any(*found));
@@ -236,9 +236,9 @@ class SensorError final : public Algorithm {
   }
 
   std::optional<Part> part_;
-  std::vector<std::uint32_t> first_;  ///< of the channels of each item, and their number
+  std::vector<std::uint32_t> first_;  ///< first channel of each item, followed by the number of all channels
   std::vector<Channel> channels_;
-  std::vector<std::uint64_t> robot_keys_;  ///< of the names of all robots, by number
+  std::vector<std::uint64_t> robot_keys_;  ///< keys of the names of all robots, by number
   std::tuple<Published<double>, Published<Vec3>, Published<Twist>, Published<Wrench>, Published<Quat, Vec3>,
              Published<Pose, Twist>>
       published_;

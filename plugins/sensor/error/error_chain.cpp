@@ -10,7 +10,7 @@ namespace muro {
 
 namespace {
 
-/// Throws where an error of this kind needs the time between samples.
+/// Throws muro::Error if settings need the time between samples, but `period` is 0.
 void require_period(const ErrorSettings& s, double period) {
   if (period > 0) return;
   const char* needs = nullptr;

@@ -22,7 +22,7 @@ constexpr Key<Vec3> measured_force{"linear_acceleration.measured", "m/s^2", ""};
 constexpr Key<Wrench> wrench_key{"wrench", "N, N m", ""}, measured_wrench{"wrench.measured", "N, N m", ""};
 const Vec3 true_rate(0.1, 0.2, 0.3), true_force(0, 0, 9.81);
 
-/// Robots that carry a scanner each, whose true reading is the same constant.
+/// Robots that each carry a scanner; the true reading of all scanners is the same constant.
 struct Devices : Scene {
   explicit Devices(const std::vector<std::string>& names, std::uint64_t seed = 1, bool has_force = true) : Scene(seed) {
     for (const std::string& name : names) {
@@ -159,7 +159,7 @@ TEST(SensorError, RefusesCorrelationOfASingleNumberAndExchangedLimits) {
 
 using Given = std::map<std::string, ParameterInput>;
 
-/// Every stage that has a memory or draws numbers.
+/// Settings for every stage that has a memory or draws numbers.
 const Given everything{{"of", std::string("angular_velocity")},
                        {"bandwidth", 20.0},
                        {"bandwidth_order", std::int64_t(2)},
@@ -268,7 +268,7 @@ const Quat true_orientation = from_rpy(0.4, -0.3, 2);
 constexpr Key<Quat> measured_orientation{"orientation.measured", "1", ""};
 constexpr Key<Pose> measured_pose{"odometry.pose.measured", "m", ""};
 
-// of geometry_msgs/PoseWithCovariance: rotations about the fixed axes x, y, z of the frame of reference
+// convention of geometry_msgs/PoseWithCovariance: rotations about the fixed axes x, y, z of the frame of reference
 TEST(SensorError, TurnsAnOrientationAboutTheAxesOfItsFrame) {
   Devices s({"a"});
   s.world().set(s.items[0].object, keys::orientation, true_orientation);
@@ -328,7 +328,7 @@ TEST(SensorError, DelaysAndHoldsWholeOrientations) {
 
 // --- images
 
-// of structured light: 1.4 mm at 1 m, growing with the square (Khoshelham and Elberink, Sensors 12, 2012)
+// structured light: 1.4 mm at 1 m, growing with the square (Khoshelham and Elberink, Sensors 12, 2012)
 TEST(SensorError, ShakesADepthWithTheSquareOfIt) {
   const float nothing = std::numeric_limits<float>::infinity();
   std::vector<float> depth(30000, 1.0F);
@@ -361,7 +361,7 @@ TEST(SensorError, ShakesADepthWithTheSquareOfIt) {
 
 // --- satellite navigation
 
-// 100 m to the east and 50 m to the north of 49.87 deg are what the radii of curvature of WGS 84 say
+// expected: 100 m to the east and 50 m to the north at 49.87 deg, by the radii of curvature of WGS 84
 TEST(SensorError, PutsTheErrorsOfAPositionIntoLatitudeAndLongitude) {
   Devices s({"a"});
   const RobotView& robot = *s.items[0].robot;
@@ -384,7 +384,7 @@ TEST(SensorError, PutsTheErrorsOfAPositionIntoLatitudeAndLongitude) {
   EXPECT_EQ(s.world().value(gps, keys::altitude), 144) << "the truth stays readable";
 }
 
-// half of the fixes lie within 2.5 m, however far they drift
+// half of the fixes are within 2.5 m, for any drift
 TEST(SensorError, HasTheCircularErrorProbableOfAReceiver) {
   int inside = 0;
   const int receivers = 400;
@@ -480,7 +480,7 @@ TEST(SensorError, CountsTheStepsOfAnEncoderOrOfSeveral) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(read[i], step * std::round(joints[i] / step));
 }
 
-// users of Gazebo dispute what its dynamic bias is: the one parameter is the stationary deviation, the other drives it
+// Gazebo's dynamic bias is ambiguous: gauss_markov_sigma is its stationary deviation, gauss_markov_density drives it
 TEST(SensorError, TakesADriftingBiasByItsDeviationOrByItsDrivingDensity) {
   Devices by_sigma({"a"}), by_density({"a"});
   const double density = 0.05, time = 8;

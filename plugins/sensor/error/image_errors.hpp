@@ -10,8 +10,8 @@
 
 namespace muro {
 
-/// What a device reads of an array of f32, such as the depth of a camera. Pixels that see nothing are infinite, and
-/// stay so.
+/// The reading of an array of f32, such as the depth of a camera. Pixels that see nothing are infinite, and stay
+/// infinite.
 class ImageErrors {
  public:
   ImageErrors() = default;

@@ -15,9 +15,9 @@ namespace muro {
 /// H = w^2 / (s^2 + sqrt(2) w s + w^2), with w = 2 pi times the bandwidth, at which both pass 1/sqrt(2) of the
 /// amplitude.
 ///
-/// Between two samples the input is taken as linear (first-order hold, ramp-invariant); for such an input the
-/// discretisation is exact at any period. With slope m the output follows the particular solution u - m / w, or
-/// u - sqrt(2) m / w with the rate m; what it deviates from that decays by the free response over one period
+/// Between two samples the input is assumed to be linear (first-order hold, ramp-invariant). For such an input the
+/// discretisation is exact at any period. For the slope m the output follows the particular solution u - m / w, or
+/// u - sqrt(2) m / w with the rate m. Its deviation from this solution decays by the free response over one period
 /// (Franklin, Powell, Workman: Digital Control of Dynamic Systems, section 6.3). It begins at rest at the first input.
 class LowPass {
  public:
@@ -32,7 +32,7 @@ class LowPass {
 
   bool is_active() const { return !filters_.empty(); }
 
-  /// Replaces the samples by the filtered ones. `first`: nothing came before.
+  /// Replaces the samples by the filtered ones. `first`: there was no earlier sample.
   void apply(std::span<double> values, std::span<double> state, bool first) const {
     for (std::size_t i = 0; i < filters_.size(); ++i) {
       if (filters_[i].angular_bandwidth == 0) continue;
@@ -50,7 +50,7 @@ class LowPass {
   struct Filter {
     double angular_bandwidth = 0;  ///< rad/s
     double period = 0;             ///< s
-    double decay = 0;              ///< of the deviation, first order
+    double decay = 0;              ///< factor of the deviation, first order
     /// Second order: new deviation and rate from the old deviation and rate.
     double from_deviation[2] = {0, 0}, from_rate[2] = {0, 0};
   };
@@ -62,7 +62,7 @@ class LowPass {
       f.decay = elementary::exp(-w * period);
       return f;
     }
-    const double a = w * M_SQRT1_2;  // damping, and frequency of the free oscillation
+    const double a = w * M_SQRT1_2;  // damping and frequency of the free oscillation
     if (w == 0) return f;
     const auto [sine, cosine] = elementary::sincos(a * period);
     const double e = elementary::exp(-a * period);
@@ -74,7 +74,7 @@ class LowPass {
   }
 
   static double first_order(const Filter& f, double* s, double input) {
-    const double lag = (input - s[0]) / (f.period * f.angular_bandwidth);  // behind a ramp of this slope
+    const double lag = (input - s[0]) / (f.period * f.angular_bandwidth);  // lag behind a ramp of this slope
     s[1] = input - lag + f.decay * (s[1] - (s[0] - lag));
     s[0] = input;
     return s[1];
@@ -90,7 +90,7 @@ class LowPass {
   }
 
   int order_ = 1;
-  std::vector<Filter> filters_;  ///< one a component
+  std::vector<Filter> filters_;  ///< one for each component
   std::size_t state_ = 0;
 };
 

@@ -9,7 +9,7 @@
 
 namespace muro {
 
-/// What a receiver of satellite navigation reads as latitude, longitude and altitude: the place of its
+/// The latitude, longitude and altitude that a receiver of satellite navigation reads: the place of its
 /// `gps.position.measured`, so that both have the same errors.
 class MeasuredPlace {
  public:

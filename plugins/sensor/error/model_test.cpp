@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Noise, bias, resolution, limits and dropouts of an array against the theory of their processes. Seeds are fixed;
-// bounds are 5 standard deviations of the estimate, so that a wrong model fails and a right one does not hang on the
-// choice of the seed.
+// Noise, bias, resolution, limits and dropouts of an array, compared with the theory of their processes. Seeds are
+// fixed; bounds are 5 standard deviations of the estimate. So a wrong model fails, and a right one passes with any
+// seed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct ScanErrors {
   }
 };
 
-/// `steps` readings of `length` true values of `truth`, one step after the other.
+/// Returns `steps` readings of `length` true values of `truth`, one step after the other.
 std::vector<double> measure(const ScanErrors& model, double truth, std::uint32_t length, std::uint64_t steps,
                             std::uint64_t key = 1, std::uint64_t seed = 1) {
   const std::vector<double> x(length, truth);
@@ -68,7 +68,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return sum / double(a.size() - 1) / std::sqrt(variance(a) * variance(b));
 }
 
-/// Correlation of readings `lag` places apart within an array, over all steps.
+/// Returns the correlation of readings `lag` places apart within an array, over all steps.
 double autocorrelation(const std::vector<double>& y, std::uint32_t length, std::uint32_t lag) {
   std::vector<double> a, b;
   for (std::size_t i = 0; i < y.size(); ++i)
@@ -83,7 +83,7 @@ TEST(Philox, GivesTheKnownAnswersOfTheRandom123Distribution) {
   EXPECT_EQ(philox({0, 0, 0, 0}, {0, 0}), (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
   const std::uint32_t ones = 0xffffffff;
   EXPECT_EQ(philox({ones, ones, ones, ones}, {ones, ones}), (Words{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
-  // the digits of pi
+  // digits of pi
   EXPECT_EQ(philox({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, {0xa4093822, 0x299f31d0}),
             (Words{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
@@ -133,7 +133,7 @@ TEST(SensorErrorModel, CorrelatesNeighboursWithoutChangingTheDeviation) {
   const std::uint32_t length = 100, steps = 4000;
   for (const double c : {0.52, -0.4, 0.9}) {
     const std::vector<double> y = measure({.sigma = 0.5, .correlation = c}, 0, length, steps);
-    // a correlated sequence is worth n (1 - c^2) / (1 + c^2) independent numbers when its variance is estimated
+    // for the variance a correlated sequence is equivalent to n (1 - c^2) / (1 + c^2) independent numbers
     const double n = double(length) * steps, worth = n * (1 - c * c) / (1 + c * c);
     EXPECT_NEAR(variance(y), 0.25, 5 * 0.25 * std::sqrt(2 / worth)) << c;
     EXPECT_NEAR(mean(y), 0, 5 * 0.5 * std::sqrt((1 + std::abs(c)) / (1 - std::abs(c)) / n)) << c;

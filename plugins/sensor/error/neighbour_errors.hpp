@@ -12,7 +12,7 @@
 
 namespace muro {
 
-/// What a device reads of its neighbours: distance, bearing, elevation and heading are the components of the chain.
+/// The reading of neighbours: distance, bearing, elevation and heading are the components of the chain.
 class NeighbourErrors {
  public:
   NeighbourErrors() = default;
@@ -21,7 +21,7 @@ class NeighbourErrors {
 
   explicit operator bool() const { return bool(truth_); }
 
-  /// `keys`: of the names of all robots, by their number.
+  /// `keys`: keys of the names of all robots, by number of the robot.
   void apply(const ErrorChain& chain, std::span<double> state, const ErrorChain::Sample& sample,
              std::span<const std::uint64_t> keys) const {
     chain.begin_sample(state, sample);

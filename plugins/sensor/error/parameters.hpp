@@ -9,7 +9,7 @@ namespace muro {
 
 inline constexpr std::string_view dropout_readings[] = {"value", "hold"};
 
-/// Of the errors of a reading, in the order in which they are made of it. A part has the same.
+/// Parameters of the errors of a reading, in the order in which they act. Parts have the same parameters.
 inline constexpr Parameter error_parameters[] = {
     reals("bandwidth", "Hz", {}, "at which 1/sqrt(2) of the amplitude passes; 0: no low-pass").between(0, 1e9),
     integer("bandwidth_order", 1, "of the low-pass: 1, or 2 (Butterworth)").between(1, 2),

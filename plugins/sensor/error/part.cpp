@@ -19,7 +19,7 @@ std::string number_text(double x) {
   return {digits, std::to_chars(digits, digits + sizeof digits, x).ptr};
 }
 
-/// What a parameter allows, for messages.
+/// Returns the values that a parameter allows, for messages.
 std::string allowed(const Parameter& p) {
   if (!p.choices.empty()) return "one of " + quoted_list(p.choices);
   std::string text = p.type == ParameterType::reals     ? "numbers"

@@ -15,19 +15,19 @@ namespace muro {
 /// A value in the file of a part.
 struct PartValue {
   std::vector<double> numbers;
-  std::string word;   ///< where the parameter is a text
+  std::string word;   ///< value of a parameter that is a text
   std::string place;  ///< "FILE:LINE:COLUMN: ", for messages about it
 };
 
-/// The errors of one of the readings of a part, under the names that sensor.error has for them.
+/// The errors of one reading of a part, with the parameter names of sensor.error.
 struct PartSection {
   std::string name;     ///< "gyro"
   std::string reading;  ///< the property: "angular_velocity"
   std::map<std::string, PartValue, std::less<>> values;
 };
 
-/// A real device by its data sheet: what the errors of its readings are. The form of its file is that of all parts
-/// (plugins/common/part_file); each section has one reading:
+/// A real device by its data sheet: the errors of its readings. Its file has the form of all parts
+/// (plugins/common/part_file). Each section has one reading:
 ///
 ///     # what the device is, and where the values are from
 ///     gyro:
@@ -38,12 +38,12 @@ struct Part {
   std::string file;
   std::vector<PartSection> sections;
 
-  /// The section of a property, or null.
+  /// Returns the section of a property, or null.
   const PartSection* section_of(std::string_view reading) const;
 };
 
-/// The part in a file. Values are those of `parameters`, and must be what these allow. Throws muro::Error with file,
-/// line and column of the first mistake.
+/// Reads the part in a file. Names and values must be allowed by `parameters`. Throws muro::Error with file, line and
+/// column of the first mistake.
 Part make_part(const PartFile& file, std::span<const Parameter> parameters);
 
 }  // namespace muro

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files of parts: the devices that come with the plugin against their data sheets, and what is said of mistakes.
+// Files of parts: compares the parts of the plugin with their data sheets, and checks the messages about mistakes.
 #include "part.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double degree = M_PI / 180, g = 9.80665;
 
-/// A section of a part that comes with the plugin.
+/// A section of a part of the plugin.
 struct Sheet {
   Part part;
   const PartSection* section;
@@ -26,7 +26,7 @@ struct Sheet {
   Sheet(const char* name, const char* reading)
       : part(make_part(PartFile::read(std::string(PARTS "/") + name + ".yaml"), error_parameters)),
         section(part.section_of(reading)) {}
-  /// A value agrees with that of the data sheet to the digits that the file has.
+  /// Checks that a value agrees with the data sheet to the digits of the file.
   void expect(const char* name, const std::vector<double>& expected) {
     const auto found = section->values.find(name);
     ASSERT_NE(found, section->values.end()) << name;
@@ -35,7 +35,7 @@ struct Sheet {
       EXPECT_NEAR(found->second.numbers[i], expected[i], 1e-4 * expected[i]) << name;
     ++checked;
   }
-  /// Nothing else is in the file.
+  /// Checks that the file has no other values.
   ~Sheet() { EXPECT_EQ(checked, section->values.size()) << part.file << ", " << section->name; }
 };
 
@@ -76,7 +76,7 @@ TEST(Part, ADIS16448HasTheValuesOfItsDataSheet) {
 }
 
 TEST(Part, NeoM8IsHalfTheTimeWithinTheCircleOfItsDataSheet) {
-  const double median = std::sqrt(2 * std::log(2));  // of the length of two normal numbers
+  const double median = std::sqrt(2 * std::log(2));  // median length of two normal numbers
   Sheet position("neo_m8", "gps.position"), velocity("neo_m8", "gps.velocity");
   position.expect("gauss_markov_sigma", {2.5 / median, 2.5 / median, 2 * 2.5 / median});
   position.expect("gauss_markov_time", {60});

@@ -8,7 +8,7 @@
 
 namespace muro {
 
-/// A setting of a reading: one number for all of its components, or one for each. Without numbers it is 0.
+/// A setting of a reading: one number for all components, or one for each component. Without numbers it is 0.
 class PerComponent {
  public:
   PerComponent() = default;
@@ -22,7 +22,7 @@ class PerComponent {
   bool is_zero() const {
     return std::all_of(values_.begin(), values_.end(), [](double v) { return v == 0; });
   }
-  /// How many numbers were given.
+  /// Returns how many numbers were given.
   std::size_t size() const { return values_.size(); }
   template <class Function>
   PerComponent map(Function function) const {
@@ -30,7 +30,7 @@ class PerComponent {
     for (const double v : values_) result.values_.push_back(function(v));
     return result;
   }
-  /// `function` of this and of another of the same reading.
+  /// Returns `function` of this setting and of another one of the same reading.
   template <class Function>
   PerComponent with(const PerComponent& other, Function function) const {
     PerComponent result;
@@ -43,10 +43,10 @@ class PerComponent {
   std::vector<double> values_;
 };
 
-/// Where the stages of a chain keep their state: numbers in one block, which begins as zeros.
+/// Places of the states of the stages of a chain: numbers in one block, which begins as zeros.
 class StateLayout {
  public:
-  /// The first of `count` numbers.
+  /// Reserves `count` numbers. Returns the place of the first one.
   std::size_t reserve(std::size_t count) {
     const std::size_t first = size_;
     size_ += count;

@@ -11,7 +11,7 @@
 
 namespace muro {
 
-/// A key whose texts it owns. Properties keep pointing to them.
+/// A key that owns its texts. Properties keep pointers to them.
 template <class T>
 struct OwnedKey {
   std::string name, unit;
@@ -22,18 +22,18 @@ struct OwnedKey {
   OwnedKey& operator=(const OwnedKey&) = delete;
 };
 
-/// The properties that sensor.error makes beside a reading of type T: what the device reads, and as constants of type E
-/// what its errors are, for those who compare the one with the other.
+/// The properties that sensor.error adds to a reading of type T: the reading of the device, and its errors as constants
+/// of type E, so that readings and errors can be compared.
 template <class T, class E = T>
 class Published {
  public:
   using Reading = T;
-  /// The property of what the device reads.
+  /// Returns the key of the reading of the device.
   const Key<T>& measured(const KeyInfo& of) {
     return key(measured_, std::string(of.name) + ".measured", std::string(of.unit), "as the device reports it");
   }
 
-  /// Sets the constants `of`.error.*, those that are not 0.
+  /// Sets the constants `of`.error.* that are not 0.
   void set_constants(Connector& c, ObjectId object, const KeyInfo& of, const ErrorSettings& s, double period) {
     const std::string unit(*of.type == value_type<Quat> ? "rad" : *of.type == value_type<Pose> ? "m, rad" : of.unit);
     const auto density = [&](std::size_t i) {

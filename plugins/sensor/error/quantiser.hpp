@@ -9,7 +9,7 @@
 
 namespace muro {
 
-/// From an analogue value to the number that a device reports: saturation, resolution of the converter, limits.
+/// Converts an analogue value to the number that a device reports: saturation, resolution of the converter, limits.
 ///
 /// 1. Saturation: the value is clipped to [-full_scale, full_scale], exactly.
 /// 2. Resolution: it becomes the nearest multiple of the step. A converter of n `bits` has the step
@@ -18,11 +18,11 @@ namespace muro {
 struct Quantiser {
   double full_scale = std::numeric_limits<double>::infinity();
   int bits = 0;               ///< 0: no converter
-  PerComponent resolution{};  ///< step where there is no converter; 0: none
+  PerComponent resolution{};  ///< step if there is no converter; 0: none
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
 
-  /// The least difference of two readings; 0: none.
+  /// Returns the least difference of two readings; 0: none.
   PerComponent step() const { return bits > 0 ? std::ldexp(full_scale, 1 - bits) : resolution; }
 
   double operator()(double y, std::size_t component = 0) const {

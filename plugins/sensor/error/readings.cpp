@@ -21,7 +21,7 @@ std::vector<std::string> names_of_readings(const Connector& c, ObjectId object) 
   return names;
 }
 
-/// "; it has a, b", or what to do where it has nothing.
+/// Returns "; it has a, b", or what to do if there is no reading.
 std::string what_there_is(const Connector& c, ObjectId object) {
   const std::vector<std::string> names = names_of_readings(c, object);
   return names.empty() ? "; add the sensor that writes it" : "; it has " + quoted_list(names);

@@ -12,16 +12,16 @@
 
 namespace muro {
 
-/// Whether sensor.error works on a property: f64 numbers, alone, in an array or in a value, arrays of f32, and lists of
-/// neighbours.
+/// Whether sensor.error can process a property: f64 numbers, alone, in an array or in a value, arrays of f32, and lists
+/// of neighbours.
 bool is_reading(const FoundProperty& property);
 ReadingShape shape_of(const FoundProperty& property);
 
-/// The reading of this name; throws muro::Error where it is missing or is not made of real numbers. [setup]
+/// Returns the reading of this name. Throws muro::Error if it is missing or does not consist of real numbers. [setup]
 FoundProperty find_reading(const Connector& c, ObjectId object, std::string_view name);
-/// The readings of an object that a part knows; throws muro::Error where there are none. [setup]
+/// Returns the readings of an object that a part knows. Throws muro::Error if there are none. [setup]
 std::vector<FoundProperty> readings_of_part(const Connector& c, ObjectId object, const Part& part);
-/// The property of another name and of type T, if the object has it. [setup]
+/// Returns the property of this name and of type T, if the object has it. [setup]
 template <class T>
 std::optional<FoundProperty> find_value(const Connector& c, ObjectId object, std::string_view name) {
   for (const FoundProperty& p : c.properties(object))

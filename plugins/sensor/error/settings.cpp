@@ -50,7 +50,7 @@ void refuse(const GivenErrors& given, std::initializer_list<std::string_view> na
                            "; remove it");
 }
 
-/// Throws where an error does not belong to readings of this form.
+/// Throws muro::Error if a given error of the device does not fit readings of this form.
 void check_form(const GivenErrors& given, const ReadingShape& reading) {
   const bool is_list = reading.form == ReadingForm::list, is_image = reading.form == ReadingForm::image;
   refuse(given, {"correlation"}, reading.is_array(), reading, "between neighbours in an array");
@@ -90,8 +90,8 @@ Mat3 matrix(const GivenErrors& given, std::string_view name) {
   return m;
 }
 
-/// Of two parameters that say the same in two ways, which one counts: none, or one that is given. The scenario beats
-/// the part; both in one place are a mistake.
+/// Returns which of two parameters with the same meaning counts: one that is given, or any if none is. The scenario has
+/// priority over the part. Both in one place are a mistake.
 std::string_view one_of(const GivenErrors& given, std::string_view a, std::string_view b) {
   if (given.in_scenario(a) != given.in_scenario(b)) return given.in_scenario(a) ? a : b;
   if (given.given(a) && given.given(b))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each link of the chain by itself against its closed form.
+// Each stage of the chain alone, compared with its closed form.
 #include <gtest/gtest.h>
 
 #include "chain_testing.hpp"
@@ -29,7 +29,7 @@ TEST(LowPass, OfSecondOrderAnswersARampExactly) {
     const auto y = readings({.bandwidth = f, .bandwidth_order = 2}, rate, 60,
                             [&](std::size_t k) { return slope * double(k) / rate; });
     for (std::size_t k = 0; k < y.size(); ++k) {
-      // of y'' + sqrt(2) w y' + w^2 y = w^2 slope t, at rest
+      // solution of y'' + sqrt(2) w y' + w^2 y = w^2 slope t, at rest
       const double t = double(k) / rate, lag = std::sqrt(2) / w;
       EXPECT_NEAR(y[k], slope * (t - lag + std::exp(-a * t) * lag * std::cos(a * t)), 1e-13) << rate << " Hz";
     }
@@ -198,7 +198,7 @@ TEST(Delay, BetweenSamplesIsThatOfTheOlderOne) {
   for (std::size_t k = 1; k < short_one.size(); ++k) EXPECT_EQ(short_one[k], truth(k - 1)) << k;
 }
 
-// PX4's GPS is 0.12 s late at 5 Hz
+// PX4's GPS has a delay of 0.12 s at 5 Hz
 TEST(Delay, BetweenSamplesKeepsDeviationAndCodes) {
   ErrorSettings s{.quantiser = {.resolution = 0.01}, .delay = 0.12};
   s.noise.sigma = 1;

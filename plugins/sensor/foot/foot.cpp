@@ -47,10 +47,10 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-/// What is kept of a foot.
+/// Data of one foot.
 struct Foot {
   link_motion::LinkMotion link;
-  Pose device;  ///< in the link's frame
+  Pose device;  ///< pose in the link's frame
   Aabb sole;    ///< in the device's frame; z is the plane of the cells
   LinkLoad load;
   Out<std::uint32_t> contact;
@@ -62,7 +62,7 @@ struct Foot {
 class FootSensor final : public PerRobotAlgorithm<Foot> {
  public:
   /// A load F, M about the device acts in the plane z of the cells at x = (-M_y + z F_x) / F_z and y = (M_x + z F_y) /
-  /// F_z; the cells share F_z so that this stays where it is, as far as it lies between them.
+  /// F_z. The cells share F_z so that it acts at the same point, as long as this point is between the cells.
   void step(const Step&, Range range) override {
     for (const Foot& foot : robots(range)) {
       const Pose link = foot.link.now().pose, device = link * foot.device;

@@ -40,10 +40,10 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-/// What is kept of a device.
+/// Data of one device.
 struct Device {
   LinkMotion link;  ///< the first link beyond the sensor
-  Pose mounting;    ///< of the device in it
+  Pose mounting;    ///< pose of the device in this link
   Subtree beyond;
   Out<Wrench> wrench;
 };
@@ -88,8 +88,8 @@ class ForceTorque final : public PerRobotAlgorithm<Device> {
     return d;
   }
 
-  /// Throws Error where the ground carries what lies beyond, as a motion without forces says, but nobody knows by which
-  /// forces.
+  /// Throws Error if the ground carries the links beyond the sensor, as reported by a motion without forces: then the
+  /// forces of the ground are not known.
   static void check_feet(const Connector& c, const RobotView& view, std::uint32_t link) {
     if (is_moved_by_forces(c, view)) return;
     std::vector<bool> is_beyond(view.links.size());
@@ -104,7 +104,7 @@ class ForceTorque final : public PerRobotAlgorithm<Device> {
   }
 
   Vec3 gravity_ = Vec3::Zero();
-  std::string without_contacts_;  ///< the first robot that no force moves
+  std::string without_contacts_;  ///< name of the first robot that no force moves
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<ForceTorque>(description)};

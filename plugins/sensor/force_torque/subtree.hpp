@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Newton's and Euler's equations of all that hangs on a connection.
+// Newton's and Euler's equations of all links beyond a connection.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ namespace muro {
 class Subtree {
  public:
   Subtree() = default;
-  /// Of link `link` and all behind it. Throws Error where they have no mass. [setup]
+  /// Takes link `link` and all links behind it. Throws Error if they have no mass. [setup]
   Subtree(Connector& c, const RobotView& robot, std::uint32_t link) {
     const std::vector<double> start = initial_joint_positions(c, robot);
     const std::vector<Inertia> inertias = inertias_of(c, robot);
@@ -54,8 +54,8 @@ class Subtree {
     return std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.load.reads_other_robots(); });
   }
 
-  /// What must act on it through the connection, about the point `about` (m), so that it moves as it does: world axes.
-  /// `first`: how the frame of its first link moves; `gravity`: m/s^2. [step]
+  /// Returns the wrench that the connection must apply, about the point `about` (m), so that the links move as they do:
+  /// world axes. `first`: motion of the frame of the first link; `gravity`: m/s^2. [step]
   Wrench holding_wrench(const link_motion::FrameMotion& first, const Vec3& about, const Vec3& gravity) {
     Wrench sum;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -74,7 +74,7 @@ class Subtree {
 
  private:
   struct Part {
-    std::int32_t parent = -1;  ///< -1: it is the first link
+    std::int32_t parent = -1;  ///< -1: the first link
     Pose origin;               ///< in the parent's frame, with the joint at 0
     JointKind kind = JointKind::fixed;
     Vec3 axis = Vec3::UnitX();
@@ -84,7 +84,7 @@ class Subtree {
     internal_sensor::LinkLoad load;
   };
 
-  /// m (a_c - g) at the centre of mass, and I alpha + w x I w.
+  /// Adds m (a_c - g) at the centre of mass, and I alpha + w x I w.
   static void add_inertia(const Part& p, const link_motion::FrameMotion& m, const Vec3& about, const Vec3& gravity,
                           Wrench& sum) {
     const Quat& axes = m.pose.orientation;

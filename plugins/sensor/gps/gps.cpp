@@ -42,7 +42,7 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-/// What is kept of a device.
+/// Data of one device.
 struct Receiver {
   link_motion::LinkMotion antenna;
   Out<double> latitude, longitude, altitude;

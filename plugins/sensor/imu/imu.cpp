@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An inertial measurement unit with an estimate of its orientation, here the true one.
+// An inertial measurement unit with an estimate of its orientation, which here is the true orientation.
 #include "muro/plugin.hpp"
 #include "plugins/sensor/common/internal_sensor/inertial.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A magnetometer: the field of the earth in the axes of the device.
+// A magnetometer: the magnetic field of the earth in the axes of the device.
 #include "muro/plugin.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/sensor/common/internal_sensor/mounted.hpp"
@@ -30,7 +30,7 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-/// What is kept of a device.
+/// Data of one device.
 struct Device {
   link_motion::LinkMotion motion;
   Out<Vec3> magnetic_field;

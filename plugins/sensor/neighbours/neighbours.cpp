@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who is in range, in which direction and with which heading; see README.md.
+// Reads which robots are in range, in which direction and with which heading; see README.md.
 #include <algorithm>
 #include <cmath>
 #include <compare>
@@ -48,7 +48,7 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-/// The angle about z, from x, of a direction; 0 along z.
+/// Returns the angle about z, from x, of a direction; 0 along z.
 double azimuth_of(const Vec3& v) { return elementary::atan2(v.y(), v.x()); }
 
 class Neighbours final : public Algorithm {
@@ -75,7 +75,7 @@ class Neighbours final : public Algorithm {
   void add_targets(Connector& c);
   void locate_targets();
   void serve(const Device& d) const;
-  /// What a device at `device` reads of a target.
+  /// Returns the reading of a target by a device at `device`.
   Neighbour reading(const Pose& device, std::uint32_t target) const;
 
   double range_ = 0;
@@ -85,8 +85,8 @@ class Neighbours final : public Algorithm {
   std::optional<line_of_sight::LineOfSight> sight_;
   std::vector<Target> targets_;
   std::vector<Device> devices_;
-  std::vector<Vec3> places_;  ///< m, of the targets in this step
-  SpatialHash hash_;          ///< over the places
+  std::vector<Vec3> places_;  ///< m, positions of the targets in this step
+  SpatialHash hash_;          ///< of the positions
 };
 
 void Neighbours::add_targets(Connector& c) {

@@ -48,7 +48,7 @@ struct Swarm : test::Scene {
     return world().values(devices[device].object, key);
   }
   std::vector<Item> devices;
-  Settings errors;  ///< of sensor.error; none: there is none
+  Settings errors;  ///< settings of sensor.error; empty: there is no sensor.error
 };
 
 using Ids = std::vector<double>;
@@ -155,7 +155,7 @@ TEST(Neighbours, HaveErrorsOfTheirOwnByTheChain) {
   EXPECT_NEAR(together / steps, 0, 3 * 0.05 * 0.05 / std::sqrt(steps)) << "of two neighbours are independent";
 }
 
-// a turn-on bias and a drift are of the device: all that it sees is off by the same
+// a turn-on bias and a drift belong to the device: all its readings have the same error
 TEST(Neighbours, ShareBiasAndDriftOfTheDeviceThatSeesThem) {
   Swarm s;
   s.place("a", {0, 0, 0});
@@ -239,11 +239,11 @@ TEST(Neighbours, AreSeenByNameWhereThereAreNames) {
   EXPECT_SAYS(test::complaint_of([&] { swarm({"wolf", "goat_*"}); }), "robots: no robot is called `goat_*`");
 }
 
-/// A crowd on a disc with walls, which moves.
+/// A crowd that moves on a disc with walls.
 struct Crowd : Swarm {
   explicit Crowd(unsigned threads) : Swarm(7) {
     for (int i = 0; i < 120; ++i) {
-      const double angle = 2.399963 * i, radius = 0.3 * std::sqrt(i);  // as seeds of a sunflower
+      const double angle = 2.399963 * i, radius = 0.3 * std::sqrt(i);  // like the seeds of a sunflower
       place("r" + std::to_string(i), {radius * std::cos(angle), radius * std::sin(angle), 0}, angle);
     }
     for (int i = 0; i < 6; ++i) wall("wall" + std::to_string(i), Shape::box({0.5, 0.1, 1}), {0.4 * i - 1, 0.5, 0.2});

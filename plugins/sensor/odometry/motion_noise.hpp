@@ -13,10 +13,10 @@ namespace muro::odometry {
 
 using wheels::PlanarTwist;
 
-/// Noise of what the base moves by between two readings. The errors depend on way and turn as in the odometry motion
-/// model of Thrun, Burgard and Fox (Probabilistic Robotics, section 5.4), whose alphas are those of a way of 1 m or a
-/// turn of 1 rad; their variances grow in proportion to way and turn (Siegwart, Nourbakhsh and Scaramuzza, section
-/// 5.2.4), so that they do not depend on the rate.
+/// Noise of the motion of the base between two readings. The errors depend on way and turn as in the odometry motion
+/// model of Thrun, Burgard and Fox (Probabilistic Robotics, section 5.4). Its alphas are those of a way of 1 m or a
+/// turn of 1 rad. Variances grow in proportion to way and turn (Siegwart, Nourbakhsh and Scaramuzza, section 5.2.4), so
+/// that they do not depend on the rate.
 class MotionNoise {
  public:
   MotionNoise() = default;

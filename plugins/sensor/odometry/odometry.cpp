@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Odometry: from the angles of wheels to the path of the base, along exact arcs.
+// Odometry: computes the path of the base from the angles of wheels, along exact arcs.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -60,17 +60,17 @@ constexpr Description description{
     .capabilities = deterministic | batched | allocation_free | restorable,
 };
 
-/// A wheel, and how far the base moves by what is known of it.
+/// A wheel, and the motion of the base that is estimated from it.
 struct CountedWheel {
   link_motion::JointMotion joint;
   PlanarTwist column;  ///< m, m and rad for each rad of the joint
   double start = 0;    ///< rad
 };
 
-/// What is kept of a vehicle.
+/// Data of one vehicle.
 struct Vehicle {
   Range wheels;
-  std::uint64_t key = 0;  ///< of its random numbers
+  std::uint64_t key = 0;  ///< key of its random numbers
   ArrayOut<double> angles;
   Out<Pose> pose;
   Out<Twist> twist;

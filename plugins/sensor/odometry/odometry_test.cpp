@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Noise of odometry against the theory of a random walk along the way. Systematic errors and arcs:
+// Noise of odometry, compared with the theory of a random walk along the way. Systematic errors and arcs are tested in
 // tests/conformance/sensor.
 #include <gtest/gtest.h>
 
@@ -16,12 +16,12 @@ using Settings = std::map<std::string, ParameterInput>;
 constexpr std::size_t vehicles = 600;
 constexpr double turn_by_turn = 3e-4, turn_by_way = 2e-4, way_by_way = 1e-3, way_by_turn = 5e-4;
 
-/// How far poses are off, in the frame in which the run began.
+/// Deviations of poses, in the frame in which the run began.
 struct Deviations {
   double along = 0, aside = 0, turn = 0;  ///< mean squares: m^2, m^2, rad^2
 };
 
-/// Vehicles that drive alike. Each has an odometry without noise, and two with it, at 10 Hz and at 100 Hz.
+/// Vehicles that drive in the same way. Each has an odometry without noise, and two with noise, at 10 Hz and 100 Hz.
 struct Fleet : test::Scene {
   explicit Fleet(std::uint64_t seed = 1) : Scene(seed) {
     const RobotTree rover = read_model(MURO_TEST_SOURCE_DIR "/examples/models/rover.urdf");
@@ -39,7 +39,7 @@ struct Fleet : test::Scene {
     use("sensor.odometry", 100, fast, noise);
     build();
   }
-  /// Whole seconds, so that all readings are of one instant.
+  /// Drives for whole seconds, so that all readings belong to one instant.
   void drive(double speed, double yaw_rate, int seconds) {
     for (const Item& item : exact)
       world().value(item.robot->base(), keys::command_twist) = {{speed, 0, 0}, {0, 0, yaw_rate}};
@@ -60,7 +60,7 @@ struct Fleet : test::Scene {
   std::vector<Item> exact, slow, fast;
 };
 
-const double within = 3 * std::sqrt(2.0 / double(vehicles));  // three deviations of a variance
+const double within = 3 * std::sqrt(2.0 / double(vehicles));  // three standard deviations of a variance
 
 TEST(OdometryNoise, GrowsWithTheWayWhateverTheRate) {
   Fleet f;

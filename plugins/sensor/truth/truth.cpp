@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The true pose and velocity of anything, for what stands above sensing (MuRoSimF, Section 1).
+// The true pose and velocity of any object, for algorithms above the level of sensing (MuRoSimF, Section 1).
 #include <vector>
 
 #include "muro/plugin.hpp"
@@ -81,7 +81,7 @@ class Truth final : public Algorithm {
  private:
   struct Teller {
     SceneFrame of, frame;
-    LinkMotion device;  ///< where its acceleration is wanted
+    LinkMotion device;  ///< set if its acceleration is written
     Out<Pose> pose;
     Out<Twist> twist, acceleration;
   };

@@ -25,7 +25,7 @@ Embree::Embree() : device_(rtcNewDevice("threads=1")) {
                 "; use laser.raycast, which needs no library");
   rtcSetDeviceErrorFunction(device_, &keep_error, this);
   scene_ = rtcNewScene(device_);
-  // The top level is rebuilt whenever something moves, so that must be quick; meshes are built once.
+  // The top level is rebuilt whenever something moves, so its build must be fast; meshes are built once.
   rtcSetSceneFlags(scene_, RTCSceneFlags(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST));
   rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);
 }
@@ -157,7 +157,7 @@ void Embree::update() {
   check();
 }
 
-/// Rays pass through the robot that is not seen.
+/// Lets rays pass through the robot that is not seen.
 void Embree::skip_ignored_robot(const RTCFilterFunctionNArguments* a) {
   const RayQuery& query = *reinterpret_cast<const RayQuery*>(a->context);
   for (unsigned i = 0; i < a->N; ++i) {

@@ -14,7 +14,7 @@
 
 namespace muro::embree {
 
-/// Distances by Embree: exact to shapes with a closed form, in single precision to the triangles of meshes and
+/// Distances by Embree: exact for shapes with a closed form, in single precision for the triangles of meshes and
 /// heightmaps.
 class Embree final : public scanner::Method {
  public:
@@ -36,33 +36,33 @@ class Embree final : public scanner::Method {
     RTCGeometry geometry = nullptr;
   };
 
-  /// What Embree tells when a call fails. [any thread]
+  /// Receives the errors of Embree. [any thread]
   static void keep_error(void* self, RTCError code, const char* text) noexcept;
-  /// Throws Error when a call of Embree has failed.
+  /// Throws Error if a call of Embree has failed.
   void check() const;
   void add(Connector& c, const BodyShape& shape);
-  /// Of a mesh or a heightmap. Null where it has been refused: see mesh::refuse_collision_mesh.
+  /// Returns the scene of a mesh or a heightmap. Returns null if it was refused: see mesh::refuse_collision_mesh.
   RTCScene mesh(Connector& c, const BodyShape& s);
   RTCScene build(const mesh::Mesh& mesh);
-  /// The heightmap that has a point of the world (m) in the solid below it, or no object.
+  /// Returns the heightmap with a point of the world (m) in the solid below its surface; no object if there is none.
   ObjectId ground_around(const Vec3& point) const;
   void place(const MeshInstance& instance) const;
   static void skip_ignored_robot(const RTCFilterFunctionNArguments* a);
-  /// Shapes and meshes, sixteen rays at a time.
+  /// Intersects shapes and meshes, sixteen rays at a time.
   void intersect_scene(RayQuery& query, std::uint32_t count, double max_range) const;
   void intersect_planes(const RayQuery& query, std::uint32_t count) const;
 
   std::atomic<bool> has_failed_ = false;
   mutable std::mutex mutex_;
-  std::string error_;  ///< the first one
+  std::string error_;  ///< message of the first error
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
-  std::map<std::tuple<std::string, double, double, double>, RTCScene> meshes_;  ///< by file and scale
+  std::map<std::tuple<std::string, double, double, double>, RTCScene> meshes_;  ///< scenes by file and scale
   std::vector<BodyShape> scenery_shapes_, robot_shapes_, planes_;
   std::vector<MeshInstance> mesh_instances_;
   heightmap::Store heightmaps_;
   std::vector<BodyShape> heightmap_shapes_;
-  std::vector<Heightmap> heightmap_surfaces_;  ///< of these, in the frames of their shapes
+  std::vector<Heightmap> heightmap_surfaces_;  ///< surfaces of heightmap_shapes_, in the frames of the shapes
   UserGeometry scenery_, robots_;
   std::vector<RobotId> robot_of_;    ///< by geometry of the scene
   std::vector<ObjectId> object_of_;  ///< likewise

@@ -10,23 +10,23 @@
 
 namespace muro::embree {
 
-/// A shape on a body, and its pose at the last update.
+/// A shape on a body, with its pose at the last update.
 struct BodyShape {
   Shape shape;
   scene_bodies::SceneBody body;
-  Vec3 position = Vec3::Zero();      ///< of the shape, m
+  Vec3 position = Vec3::Zero();      ///< position of the shape, m
   Mat3 to_shape = Mat3::Identity();  ///< rotation from the axes of the world to those of the shape
 
   Pose pose() const { return body.pose() * shape.origin; }
   void update();
-  /// The distance (m) along a ray in the world to its first point in the shape: 0 for a ray that starts in it, infinity
-  /// when the ray misses it.
+  /// Returns the distance (m) along a ray in the world to its first point in the shape: 0 for a ray that starts in it,
+  /// infinity if the ray misses it.
   double distance(const Vec3& origin, const Vec3& direction) const;
 };
 
-/// The rays of one cast: Embree searches with them in single precision, shapes are intersected with these values.
+/// The rays of one cast. Embree searches with them in single precision; shapes are intersected with these values.
 struct RayQuery {
-  RTCIntersectContext context;  ///< the first member: Embree passes its address on
+  RTCIntersectContext context;  ///< must be the first member: Embree passes its address on
   Vec3 origin;
   const Vec3* directions = nullptr;  ///< in the world
   double* ranges = nullptr;          ///< m, the shortest so far
@@ -40,7 +40,7 @@ class UserGeometry {
  public:
   /// Adds itself to a scene.
   void attach(RTCDevice device, RTCScene scene, std::vector<BodyShape> shapes);
-  /// Takes the present poses; to be followed by a commit of the scene.
+  /// Takes the present poses. The scene must be committed afterwards.
   void update();
 
  private:

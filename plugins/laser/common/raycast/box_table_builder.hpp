@@ -15,7 +15,7 @@ class BoxTableBuilder {
   void reserve(std::size_t capacity, const Vec3& centre);
   void clear();
   void add(const Aabb& box, std::uint32_t item);
-  /// To be called after the last box.
+  /// Completes the table. Call it after the last box.
   void finish();
 
   BoxTable table() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays that pass edges by less than a float can tell, and the same bits from every build of the kernels.
+// Rays that pass edges at less than the resolution of floats, and equal bits from every build of the kernels.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -24,7 +24,7 @@ std::vector<lane::Isa> instruction_sets() {
   return all;
 }
 
-/// A pattern of one ray along a direction (unit), as nearly as angles can say.
+/// Returns a pattern of one ray along a direction (unit), as precisely as angles allow.
 std::vector<double> angles_of(const Vec3& d) {
   return {std::atan2(d.y(), d.x()), std::asin(std::clamp(d.z(), -1.0, 1.0))};
 }
@@ -34,7 +34,7 @@ struct Outline {
   Vec3 outward;  ///< unit; across the line of sight, away from the shape
 };
 
-/// A point where the line of sight from `start` touches a shape that stands at the origin without turning.
+/// Returns a point where the line of sight from `start` touches a shape at the origin that is not rotated.
 Outline outline_of(const Shape& shape, const Vec3& start, Dice& dice) {
   const auto across = [&](const Vec3& point, const Vec3& away) {
     const Vec3 sight = (point - start).normalized();
@@ -58,7 +58,7 @@ Outline outline_of(const Shape& shape, const Vec3& start, Dice& dice) {
       point.z() = dice.between(-0.45, 0.45) * shape.size.z();
       return across(point, away);
     }
-    default: {  // an edge of a box between a face that is seen and one that is not
+    default: {  // an edge of a box between a visible and a hidden face
       const Vec3 half = 0.5 * shape.size;
       Vec3 point;
       const int along = int(dice.between(0, 3)), seen = (along + 1) % 3, hidden = (along + 2) % 3;
@@ -82,13 +82,13 @@ TEST(LaserEdge, DecidesInDoublesOnWhichSideOfAnEdgeARayPasses) {
       const Shape shape = round % 4 == 0   ? Shape::sphere(dice.between(0.1, 2))
                           : round % 4 == 1 ? Shape::cylinder(dice.between(0.1, 2), dice.between(0.5, 3))
                                            : Shape::box(Vec3(1, 1, 1) + 0.9 * dice.in_box(1));
-      // from the side, between the ends, so that the outline is where outline_of looks for it
+      // from the side, between the ends, where outline_of expects the outline
       const double azimuth = dice.between(-pi, pi), far = dice.between(4, 25);
       Vec3 start(far * std::cos(azimuth), far * std::sin(azimuth), dice.between(-0.2, 0.2));
       if (shape.kind == ShapeKind::box && round % 4 == 2) start = far * dice.in_box(1).cwiseMax(0.3);
       const Outline outline = outline_of(shape, start, dice);
-      Pose place = dice.pose(20);                                // of all that
-      if (round % 8 >= 4) place.orientation = Quat::Identity();  // a box fills the box around it
+      Pose place = dice.pose(20);                                // pose of the whole arrangement
+      if (round % 8 >= 4) place.orientation = Quat::Identity();  // a box fills its bounding box
       std::vector<double> angles;
       for (const double size : {1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11})
         for (const int side : {-1, 1}) {

@@ -14,13 +14,13 @@ namespace {
 
 constexpr std::uint32_t block = HeightField::block;
 
-/// A plane: m, and m per block.
+/// A plane: height in m, slopes in m per block.
 struct Slope {
   double height, x, y;
   double at(double over_x, double over_y) const { return height + x * over_x + y * over_y; }
 };
 
-/// Least squares over equally spaced nodes: the slope along x, by height(column, row).
+/// Returns the slope along x of a least-squares fit to equally spaced nodes with the heights height(column, row).
 template <class Height>
 double slope_of(std::uint32_t columns, std::uint32_t rows, const Height& height) {
   const double middle = 0.5 * (columns - 1);
@@ -34,7 +34,7 @@ double slope_of(std::uint32_t columns, std::uint32_t rows, const Height& height)
 
 }  // namespace
 
-/// Makes the planes of a heightmap, level by level. In units of blocks and m.
+/// Makes the planes of a heightmap, level by level. Units are blocks and m.
 class HeightPlanes {
  public:
   HeightPlanes(const Heightmap& map, std::vector<HeightPlane>& planes) : map_(map), planes_(planes) {
@@ -47,7 +47,7 @@ class HeightPlanes {
         if (r > 0) steepest = std::max(steepest, std::abs(height(c, r) - height(c, r - 1)));
       }
     step = steepest > 0 ? steepest * block / 32767 : 1;
-    // rays are followed in floats, in the box around the map
+    // rays are followed in floats within the box around the map
     margin_along_ = 1e-6 * (std::max(wide_, deep_) + 2.0);
     margin_up_ = 8e-6 * highest + 1e-8;
     while ((1u << levels_) < std::min(wide_, deep_)) ++levels_;
@@ -61,7 +61,7 @@ class HeightPlanes {
       for (std::uint32_t j = 0; j < size(deep_, level); ++j)
         for (std::uint32_t i = 0; i < size(wide_, level); ++i) planes_[number(level, i, j)] = over_planes(level, i, j);
   }
-  double step;  ///< of slopes
+  double step;  ///< unit of slopes, m per block
   std::uint32_t columns, upper_column, upper_rows, widest;
 
  private:
@@ -88,7 +88,7 @@ class HeightPlanes {
     return plane_of(s);
   }
   HeightPlane over_planes(std::uint32_t level, std::uint32_t i, std::uint32_t j) const {
-    const double part = 1u << (level - 1);  // the length of a block of the level below
+    const double part = 1u << (level - 1);  // length of a block of the level below
     std::uint32_t part_i[2], part_j[2];
     for (std::uint32_t k = 0; k < 2; ++k) {
       part_i[k] = std::min(2 * i + 2 * k, size(wide_, level - 1) - 1);
@@ -124,7 +124,7 @@ class HeightPlanes {
 
   const Heightmap& map_;
   std::vector<HeightPlane>& planes_;
-  std::uint32_t wide_, deep_, levels_ = 0;  // blocks, the last perhaps not whole
+  std::uint32_t wide_, deep_, levels_ = 0;  // numbers of blocks, the last block may be incomplete
   double margin_along_, margin_up_;         // blocks, m
 };
 

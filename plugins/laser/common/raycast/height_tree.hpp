@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Heightmaps as rays search them.
+// Heightmaps in the form in which rays search them.
 #pragma once
 
 #include <map>
@@ -14,14 +14,14 @@
 
 namespace muro::raycast {
 
-/// A heightmap with planes over its parts: see HeightField::planes.
+/// A heightmap with planes over its parts, see HeightField::planes.
 class HeightTree {
  public:
   HeightTree(heightmap::HeightmapFile file, const Vec3& size);
 
   Heightmap heightmap() const { return file_.heightmap(size_); }
   const Aabb& bounds() const { return bounds_; }  ///< in the frame of the shape
-  HeightField field() const;                      ///< valid as long as the tree
+  HeightField field() const;                      ///< valid during the life of the tree
 
  private:
   heightmap::HeightmapFile file_;
@@ -35,11 +35,11 @@ class HeightTree {
 /// The trees of all heightmaps of a world.
 class HeightTrees {
  public:
-  /// Reads the files of all heightmaps among the collision shapes; one that cannot be read is refused: see
+  /// Reads the files of all heightmaps among the collision shapes. A heightmap that cannot be read is refused, see
   /// mesh::refuse_collision_mesh. [setup]
   void connect(Connector& c);
   void add(const Shape& shape, heightmap::HeightmapFile file);
-  /// Null for one that has been refused.
+  /// Returns null for a heightmap that was refused.
   const HeightTree* find(const Shape& shape) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scans of heightmaps against closed forms, and against a reference that tests every ray with every triangle.
+// Scans of heightmaps, compared with closed forms and with a reference that tests every ray with every triangle.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -23,7 +23,7 @@ constexpr ObjectId land_object{1};
 /// A scene of one heightmap.
 class Land {
  public:
-  /// `height` (m) at x, y (m).
+  /// `height`: m, at x, y (m).
   Land(std::uint32_t columns, std::uint32_t rows, const Vec3& size, const Pose& pose,
        const std::function<double(double, double)>& height)
       : pose_(pose) {
@@ -52,7 +52,7 @@ class Land {
     RayCaster().cast(scan_kernels_for(isa), table_, from, pattern, s.ranges, s.hits);
     return s;
   }
-  /// Along one direction of the map's frame, from a point in it.
+  /// Returns the range along a direction from a point, both in the map's frame.
   double range(const Vec3& from, const Vec3& direction, double max_range = 100) const {
     const Vec3 d = direction.normalized();
     const double angles[] = {0, 0};
@@ -78,8 +78,8 @@ std::vector<Vec3> directions_of(const RayPattern& pattern) {
   return rays;
 }
 
-/// The nearest of all triangles along a ray, in long double (Moeller and Trumbore 1997); infinity for none. `crossing`:
-/// the cosine between the ray and its normal.
+/// Returns the distance to the nearest of all triangles along a ray, in long double (Moeller and Trumbore 1997);
+/// infinity if there is none. `crossing`: cosine between the ray and the normal of that triangle.
 long double nearest_triangle(const mesh::Mesh& mesh, const Vec3& from, const Vec3& along, double& crossing) {
   using V = Eigen::Matrix<long double, 3, 1>;
   const V o = from.cast<long double>(), d = along.cast<long double>();
@@ -107,7 +107,7 @@ TEST(LaserHeightmap, TurnsByHalfCirclesLeaveNoRayThrough) {
       turns.push_back(turn);
     }
   for (const Quat& map : turns) {
-    if ((map * Vec3::UnitZ()).z() < 0) continue;  // its floor is above
+    if ((map * Vec3::UnitZ()).z() < 0) continue;  // the floor would be above
     const Land land(9, 9, {8, 8, 1}, {Vec3::Zero(), map}, [](double, double) { return 0.0; });
     for (const Quat& device : turns)
       for (const double azimuth : {0.0, pi / 2, pi, -pi / 2})
@@ -165,7 +165,7 @@ TEST(LaserHeightmap, AgreesWithBruteForceFromEverywhere) {
   EXPECT_LT(hits, rays * 9 / 10);
 }
 
-/// z = 3 + x / 4 - y / 8: exact in floats at the nodes.
+/// A slope, z = 6 + x / 4 - y / 8: exact in floats at the nodes.
 Land slope(const Pose& pose = {}) {
   return Land(65, 33, {32, 32, 2}, pose, [](double x, double y) { return 6 + 0.25 * x - 0.125 * y; });
 }
@@ -190,8 +190,8 @@ TEST(LaserHeightmap, GivesDistancesToAnInclinedPlaneInClosedForm) {
 
 TEST(LaserHeightmap, LetsNoRayThroughItsSeams) {
   const Land land = slope();
-  // straight down on nodes, on the three kinds of edges, and level with them on their way down
-  constexpr double rim = 16 - 1e-9;  // a direction straight down is so to 1e-16
+  // rays straight down on nodes and on the three kinds of edges, and rays that descend along these edges
+  constexpr double rim = 16 - 1e-9;  // a direction straight down has an error of 1e-16
   for (double column = -16; column <= 16; column += 0.5)
     for (const double row : {-16.0, -3.0, -2.5, 0.0, 0.5, 16.0}) {
       const double x = std::clamp(column, -rim, rim), y = std::clamp(row, -rim, rim);
@@ -204,7 +204,7 @@ TEST(LaserHeightmap, LetsNoRayThroughItsSeams) {
         for (const Vec3& along : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 1, 0), Vec3(1, -1, 0)}) {
           const Vec3 from = Vec3(x, y, ground_height + 1) - along;
           const double slope_along = 0.25 * along.x() - 0.125 * along.y();
-          // meets the ground where it is at (x, y), one unit further
+          // the ray meets the ground at (x, y), after one more unit
           EXPECT_NEAR(land.range(from, along + Vec3(0, 0, -1)), (along + Vec3(0, 0, -1)).norm(), 1e-11)
               << x << ", " << y << ", " << slope_along;
         }
@@ -213,7 +213,7 @@ TEST(LaserHeightmap, LetsNoRayThroughItsSeams) {
 }
 
 TEST(LaserHeightmap, FollowsAParaboloidAsNearlyAsItsGridDoes) {
-  // z = (x^2 + y^2) / 16, nodes 1/8 m apart: between them the triangles are higher by at most 1/8^2 / 8 (1/8 + 1/8)
+  // z = (x^2 + y^2) / 16, nodes 1/8 m apart: between nodes the triangles are too high by at most 1/8^2 / 8 (1/8 + 1/8)
   const Land land(65, 65, {8, 8, 1}, {}, [](double x, double y) { return (x * x + y * y) / 16; });
   const double too_high = 1.0 / 64 / 8 / 4;
   Dice dice(33);

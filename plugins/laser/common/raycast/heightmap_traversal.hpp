@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Rays on their way over a heightmap.
 //
-// Each ray goes by itself, sixteen in a lane. Its next way of 2^k blocks lies in a window of the planes of level k
-// (HeightField::planes), one for any place, since windows overlap by half. If the ray stays above the plane there, it
-// has passed that way; else it goes on to where it meets the plane, and looks at smaller windows, whose planes are
-// nearer to the surface. Rays that have met one of the smallest are followed from cell to cell (heightmap_walk.hpp).
-// (Tevs, Ihrke and Seidel, Maximum mipmaps for fast, accurate, and scalable dynamic height field rendering, I3D 2008,
-// have heights in place of planes and windows that do not overlap.)
+// Sixteen rays are followed in a lane, each with steps of its own. The next step of a ray, up to 2^k blocks long, is
+// within one window of the planes of level k (HeightField::planes) wherever it begins, as windows overlap by half. If
+// the ray stays above the plane, it has passed this step. Otherwise it moves on to where it meets the plane, and
+// continues with smaller windows, whose planes are nearer to the surface. Rays that meet a plane of a smallest window
+// are followed from cell to cell (heightmap_walk.hpp). (Tevs, Ihrke and Seidel, Maximum mipmaps for fast, accurate, and
+// scalable dynamic height field rendering, I3D 2008, use heights instead of planes, and windows that do not overlap.)
 //
-// A way begins where the ray enters the box around the map, so that coordinates are no greater than it, and planes are
-// as much higher than the surface as floats may be wrong there: they tell only what is free. Distances come from
-// doubles.
+// The path of a ray begins where the ray enters the box around the map, so that coordinates stay within the box. Planes
+// are raised above the surface by the largest error of floats there: they only show which space is free. Distances are
+// computed in doubles.
 #pragma once
 
 #include "heightmap_walk.hpp"
@@ -19,19 +19,19 @@
 namespace muro::raycast::rays {
 inline namespace MURO_ISA {
 
-/// The rays of a packet. What is no name of a distance is in blocks, or m.
+/// The rays of a packet. Units are blocks and m; members that are distances along rays are in m.
 class GroundRays {
  public:
-  alignas(64) double found[RayPacket::size];  ///< m: where each ray hits; infinity for those that do not
+  alignas(64) double found[RayPacket::size];  ///< m, distance at which each ray hits; infinity if it does not hit
 
-  /// `until` (m): beyond which each ray need not be followed.
+  /// Begins the paths of the rays. `until`: m, distance beyond which a ray need not be followed.
   MURO_INLINE void start(const Ground& g, const PacketSetup& setup, const D (&until)[2]) {
     V3<D> d[2];
     for (int h = 0; h < 2; ++h) {
       const auto along = [&](const V3<double>& axis) {
         return D(axis.x) * setup.direction[h].x + D(axis.y) * setup.direction[h].y + D(axis.z) * setup.direction[h].z;
       };
-      // no -0, whose inverse would say that the ray goes the other way
+      // avoids -0: its inverse would reverse the direction of the ray
       d[h] = {along(g.axes.x) * D(1 / g.field.spacing[0]) + D(0), along(g.axes.y) * D(1 / g.field.spacing[1]) + D(0),
               along(g.axes.z) + D(0)};
       store(du_ + 8 * h, d[h].x), store(dv_ + 8 * h, d[h].y), store(dz_ + 8 * h, d[h].z);
@@ -62,7 +62,7 @@ class GroundRays {
     active_ = lane::mask_of<F>(~signs(end_) & all_signs);
   }
 
-  /// A window further. Whether all rays are near the surface, or have left the map.
+  /// Moves rays on by one window. Returns whether all rays are near the surface or have left the map.
   MURO_INLINE bool march(const Ground& g) {
     const float margin = 1e-6f * float(lane::max(g.field.blocks[0], g.field.blocks[1]) + 3);
     const F last_u(float(g.field.blocks[0]) - 0.25f), last_v(float(g.field.blocks[1]) - 0.25f);
@@ -93,7 +93,7 @@ class GroundRays {
     return !lane::any(active_);
   }
 
-  /// Follows the rays that are near the surface. Whether any of them must go on.
+  /// Follows the rays that are near the surface. Returns whether any of them must go on.
   MURO_INLINE bool walk(const Ground& g) {
     alignas(64) float at[RayPacket::size], next[RayPacket::size];
     store(at, at_), store(next, next_);
@@ -125,8 +125,8 @@ class GroundRays {
  private:
   static constexpr float per_block = 1.0f / HeightField::block;
 
-  /// Where rays are over the map, not below its floor and not above its top. end_: the length of that way, m; negative
-  /// where there is none.
+  /// Finds where rays are over the map, not below its floor and not above its top. end_: the length of this path, m;
+  /// negative if there is none.
   MURO_INLINE void start_inside(const Ground& g, const D (&until)[2], const V3<F>& d, const V3<F>& inverse) {
     const auto out = [](F i, double from, double length) {
       return lane::max(i * F(-float(from)), i * F(float(length - from)));
@@ -172,17 +172,17 @@ class GroundRays {
     end_ = narrow(way[0], way[1]);
   }
 
-  V3<F> origin_, along_;  ///< where the way begins, and per unit of at_, of which one is a block along x or along y
-  F at_, end_, window_, next_;  ///< next_: from where a ray that is near the surface goes on
+  V3<F> origin_, along_;        ///< begin of the path; change per unit of at_, which is one block along x or along y
+  F at_, end_, window_, next_;  ///< next_: where a ray that is near the surface goes on
   lane::Mask<float, 16> active_;
   unsigned near_;
   alignas(64) double du_[RayPacket::size], dv_[RayPacket::size], dz_[RayPacket::size];
   alignas(64) double over_from_[RayPacket::size], over_until_[RayPacket::size];  ///< m
-  alignas(64) double from_[RayPacket::size];                                     ///< m: where the way begins
+  alignas(64) double from_[RayPacket::size];                                     ///< m, begin of the path
   alignas(64) float pace_[RayPacket::size];                                      ///< m per unit of at_
 };
 
-/// Finds where the rays of some packets hit. Packets take turns, so that a processor need not wait for one's planes.
+/// Finds the hits of the rays of some packets. Packets take turns, so that the processor does not wait for memory.
 inline void cast_over_ground(const Ground& ground, GroundRays* packets, std::uint32_t count) {
   GroundRays *marching[Sector::max_packets], *near[Sector::max_packets];
   for (std::uint32_t i = 0; i < count; ++i) marching[i] = packets + i;

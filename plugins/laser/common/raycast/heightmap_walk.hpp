@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays that are near the surface of a heightmap, from cell to cell.
+// Follows rays that are near the surface of a heightmap from cell to cell.
 #pragma once
 
 #include "intersect.hpp"
@@ -8,13 +8,13 @@
 namespace muro::raycast::rays {
 inline namespace MURO_ISA {
 
-/// A heightmap, and where rays start.
+/// A heightmap, and the start of the rays.
 struct Ground {
   const HeightField& field;
   Axes axes;
-  double u, v, z;  ///< cells from the corner at -x -y; m
-  double high;     ///< m: a little above the highest point
-  bool inside;     ///< rays start over the map, and not below its floor
+  double u, v, z;  ///< start: cells from the corner at -x -y; m
+  double high;     ///< m, a little above the highest point
+  bool inside;     ///< whether rays start over the map, and not below its floor
 
   MURO_INLINE explicit Ground(const PlacedHeightmap& map) : field(*map.field), axes(axes_at(map.axes)) {
     u = (map.origin[0] + field.half[0]) / field.spacing[0];
@@ -28,14 +28,14 @@ struct Ground {
 /// Half of the rays of a packet.
 struct WalkingRays {
   D du, dv, dz;   ///< direction: cells and m per m
-  D from, until;  ///< m: which part of the way is looked at; it begins at or over the surface, or at the rim
-  D over_until;   ///< m: until where the ray is over the map, and not below its floor
+  D from, until;  ///< m, inspected part of the path; it begins at or over the surface, or at the rim
+  D over_until;   ///< m, distance at which the ray leaves the space over the map and above its floor
 };
 
-/// Neighbouring triangles divide a ray at the same distance, bit for bit, and a ray that is in the solid at the start
-/// of its way over a triangle, or at its end, has hit it: so none slips through a seam, and none that comes from beside
-/// passes the wall below the rim. Writes where the rays of `which` hit (m); returns those that have come to the end of
-/// the part without a hit.
+/// Writes the distances (m) at which the rays of `which` hit; returns the rays that reach the end of their part without
+/// a hit. Neighbouring triangles divide a ray at the same distance, bit for bit, and a ray that is in the solid at the
+/// begin or end of its path over a triangle has hit it. So no ray slips through a seam, and no ray from the side passes
+/// the wall below the rim.
 inline unsigned walk_over_cells(const Ground& g, const WalkingRays& ray, unsigned which, double* found) {
   const HeightField& field = g.field;
   const D iu = D(1) / ray.du, iv = D(1) / ray.dv, iuv = D(1) / (ray.du + ray.dv);
@@ -49,7 +49,7 @@ inline unsigned walk_over_cells(const Ground& g, const WalkingRays& ray, unsigne
   const D scale(field.scale), z(g.z);
   unsigned at_end = 0;
   while (true) {
-    const D u = column - D(g.u), v = row - D(g.v);  // of the corner at -x -y
+    const D u = column - D(g.u), v = row - D(g.v);  // relative to the corner at -x -y
     const D out_u = lane::min((u + side_u) * iu, D(never)), out_v = lane::min((v + side_v) * iv, D(never));
     const D out = lane::min(out_u, out_v), diagonal = (u + v + D(1)) * iuv;
     const D number = row * D(field.columns) + column;
@@ -58,7 +58,7 @@ inline unsigned walk_over_cells(const Ground& g, const WalkingRays& ray, unsigne
     const D bu0 = h10 - h00, bv0 = h01 - h00, bu1 = h11 - h01, bv1 = h11 - h10;
     const D above0 = z - h00 + bu0 * u + bv0 * v, above1 = z - h11 + bu1 * (u + D(1)) + bv1 * (v + D(1));
     const D climb0 = ray.dz - bu0 * ray.du - bv0 * ray.dv, climb1 = ray.dz - bu1 * ray.du - bv1 * ray.dv;
-    // the triangles in the order in which the ray meets them
+    // triangles in the order in which the ray meets them
     const D above_a = lane::select(upper_first, above1, above0), above_b = lane::select(upper_first, above0, above1);
     const D climb_a = lane::select(upper_first, climb1, climb0), climb_b = lane::select(upper_first, climb0, climb1);
     const D out_a = lane::min(diagonal, out), in_b = lane::max(diagonal, t);

@@ -17,7 +17,7 @@ constexpr double exact = 1e-9;
 
 using rays::never;
 
-/// S: double, or a lane of them.
+/// S: double, or a lane of doubles.
 template <class S>
 S enter_of(const Shape& s, const lane::V3<S>& o, const lane::V3<S>& d) {
   switch (s.kind) {
@@ -56,7 +56,7 @@ TEST(Intersection, AgreesWithTheDistanceToAWallAtAnyIncidence) {
 }
 
 TEST(Intersection, AgreesWithTheDistanceToASphereAtAnyIncidence) {
-  // By the law of sines a ray that meets the surface at the angle a passes the centre at r sin a.
+  // A ray that meets the surface at the angle a passes the centre at r sin a (law of sines).
   for (const double incidence : {0.0, 45 * degree, 80 * degree})
     for (const double radius : {0.05, 1.0, 20.0})
       for (const double distance : {1.0, 50.0}) {
@@ -94,9 +94,9 @@ TEST(Intersection, AgreesWithTheDistanceToTheRoundEndOfACapsule) {
   const Shape capsule = Shape::capsule(0.3, 1.4);
   EXPECT_NEAR(enter(capsule, {0, 0, 5}, {0, 0, -1}), 4, exact);
   EXPECT_NEAR(enter(capsule, {0, 0, -5}, {0, 0, 1}), 4, exact);
-  // beside the axis, parallel to it: the half ball stands 0.7 + sqrt(r^2 - x^2) high
+  // beside the axis, parallel to it: the half ball is 0.7 + sqrt(r^2 - x^2) high
   EXPECT_NEAR(enter(capsule, {0.18, 0, 5}, {0, 0, -1}), 5 - 0.7 - 0.24, exact);
-  // across the half ball, above the straight part
+  // through the half ball, above the straight part
   EXPECT_NEAR(enter(capsule, {-3, 0, 0.88}, {1, 0, 0}), 3 - 0.24, exact);
 }
 
@@ -161,7 +161,7 @@ TEST(Intersection, FollowsAGrazingRayAsFarAsItsConditionAllows) {
   // Just inside the rim the distance is 3 - sqrt(r^2 - y^2); an error e of y becomes e y / sqrt(r^2 - y^2).
   for (const double gap : {1e-3, 1e-6, 1e-9}) {
     const double y = 0.75 - gap;
-    const double half = std::sqrt(gap * (0.75 + y));  // of the chord
+    const double half = std::sqrt(gap * (0.75 + y));  // half length of the chord
     EXPECT_NEAR(enter(Shape::sphere(0.75), {-3, y, 0}, {1, 0, 0}), 3 - half, 1e-15 / half);
     EXPECT_NEAR(enter(Shape::cylinder(0.75, 2), {-3, y, 0}, {1, 0, 0}), 3 - half, 1e-15 / half);
   }
@@ -174,7 +174,7 @@ TEST(Intersection, HandlesRaysAlongTheAxisOfACylinder) {
   EXPECT_EQ(enter(cylinder, {0.5 + 1e-9, 0, 4}, {0, 0, -1}), never);
   EXPECT_EQ(enter(cylinder, {0.3, 0.3, -4}, {0, 0, -1}), never);
   EXPECT_EQ(enter(cylinder, {0.3, 0.3, 0}, {0, 0, 1}), 0);
-  // nearly parallel, as rounding in a rotation leaves it
+  // nearly parallel, due to the rounding of a rotation
   for (const double tilt : {1e-17, 1e-12, 1e-170})
     EXPECT_NEAR(enter(cylinder, {0.3, 0.3, 4}, {tilt, -tilt, -1}), 3, exact);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sixteen floats, or as many doubles in two lanes.
+// Lanes of sixteen floats, or of sixteen doubles in two lanes.
 #pragma once
 
 #include <cstdint>
@@ -72,7 +72,7 @@ MURO_INLINE To converted(const From& v) {
 }
 }  // namespace detail
 
-/// Numbers that lie one behind the other.
+/// Reads a lane of consecutive numbers.
 template <class S>
 MURO_INLINE S load(const typename lane::Traits<S>::Value* from) {
   return detail::load_at<typename S::Vector>(from);
@@ -82,16 +82,16 @@ MURO_INLINE void store(typename lane::Traits<S>::Value* to, S value) {
   detail::store_at<typename S::Vector>(to, value.v);
 }
 
-/// Towards zero.
+/// Rounds towards zero.
 MURO_INLINE I truncated(F a) { return detail::converted<I::Vector>(a.v); }
 MURO_INLINE F to_floats(I a) { return detail::converted<F::Vector>(a.v); }
-/// The greatest whole number that is not greater; for numbers of less than 2^51.
+/// Returns the greatest whole number that is not greater than `a`; for numbers of less than 2^51.
 MURO_INLINE D floor(D a) {
   const D big(0x1.8p52), near = (a + big) - big;
   return lane::select(near > a, near - D(1), near);
 }
 
-/// Sixteen places of 64 bits, by number: their first 32 bits, and their last as two numbers.
+/// Sixteen elements of 64 bits, found by their numbers: the first 32 bits, and the last 32 bits as two numbers.
 struct Places64 {
   F first;
   I second, third;
@@ -122,7 +122,7 @@ MURO_INLINE Places64 look_up(const void* from, I number) {
 #endif
 }
 
-/// Numbers `number` and `number` + 1 of what lies behind `from`.
+/// The elements `number` and `number` + 1 of an array.
 struct TwoPlaces {
   D first, second;
 };
@@ -152,10 +152,10 @@ MURO_INLINE TwoPlaces look_up_two(const float* from, D number) {
 #endif
 }
 
-/// Rounded to floats.
+/// Rounds to floats.
 MURO_INLINE F narrow(D first, D second) { return detail::narrowed<F::Vector>(first.v, second.v); }
 
-/// Bit i: the sign of value i; set for a negative one.
+/// Returns the signs as bits: bit i is set if value i is negative.
 MURO_INLINE unsigned signs(F a) { return detail::bits_of(detail::sign_bits(a.v)); }
 inline constexpr unsigned all_signs = 0xffff;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sixteen rays of a packet on their way through the scene.
+// The path of the sixteen rays of a packet through the scene.
 #pragma once
 
 #include "intersect.hpp"
@@ -8,7 +8,7 @@
 namespace muro::raycast::rays {
 inline namespace MURO_ISA {
 
-/// The planes of a frustum in the world.
+/// The planes of a frustum, in the world.
 struct FrustumPlanes {
   float x[4], y[4], z[4];
 
@@ -21,10 +21,10 @@ struct FrustumPlanes {
       z[k] = m[6] * f.x[k] + m[7] * f.y[k] + m[8] * f.z[k];
     }
   }
-  /// Bit i: whether candidate i is not completely outside of one of the planes.
+  /// Returns bits: bit i is set if candidate i is not completely outside of one of the planes.
   MURO_INLINE unsigned overlapping(const Candidates& c) const {
     F min(0);
-    for (int k = 0; k < 4; ++k) {  // the corner that lies farthest along the normal
+    for (int k = 0; k < 4; ++k) {  // the corner that is farthest along the normal
       const float* cx = (x[k] > 0 ? c.high : c.low)[0];
       const float* cy = (y[k] > 0 ? c.high : c.low)[1];
       const float* cz = (z[k] > 0 ? c.high : c.low)[2];
@@ -34,15 +34,15 @@ struct FrustumPlanes {
   }
 };
 
-/// What is computed for a packet before its rays meet anything. Free of branches, so that a processor can work on
-/// several packets at once and does not wait for divisions.
+/// Values of a packet that are computed before its rays meet anything. There are no branches, so that a processor can
+/// work on several packets at once and does not wait for divisions.
 struct PacketSetup {
   V3<D> direction[2];    ///< in the world
   V3<D> inverse[2];      ///< 1 / direction
-  V3<F> rounded;         ///< direction
+  V3<F> rounded;         ///< direction as floats
   V3<F> finite_inverse;  ///< 1 / rounded, large instead of infinite
   FrustumPlanes planes;  ///< around the rays
-  unsigned first;        ///< which candidates of the first block overlap the frustum
+  unsigned first;        ///< bits of the candidates of the first block that overlap the frustum
 
   MURO_INLINE void set(const RayPacket& b, const ScanQuery& s, const Candidates* candidates) {
     const double* m = s.axes;
@@ -64,7 +64,7 @@ struct PacketSetup {
 
 MURO_INLINE V3<D> splat(const double* n) { return lane::splat<D>(n); }
 
-/// Where half of the rays enter a primitive that is no aligned box.
+/// Returns the distances at which half of the rays enter a primitive that is not an aligned box.
 MURO_INLINE D enter(const PlacedPrimitive& p, const V3<D>& direction) {
   const V3<D> o = splat(p.origin);
   const V3<D> d{dot(splat(p.axes), direction), dot(splat(p.axes + 3), direction), dot(splat(p.axes + 6), direction)};
@@ -83,13 +83,13 @@ MURO_INLINE D enter(const PlacedPrimitive& p, const V3<D>& direction) {
   return enter_capsule(o, d, p.sx, p.sz);
 }
 
-/// The nearest hits of a packet so far. with_ids: whether it is known what was hit.
+/// The nearest hits of a packet so far. with_ids: whether the collider that was hit is recorded.
 template <bool with_ids>
 struct PacketTraversal {
   const PacketSetup* setup;
-  D distance[2];  ///< to the nearest hit so far
-  D id[2];        ///< of the collider that was hit; -1: none
-  F far;          ///< not less than distance
+  D distance[2];  ///< to the nearest hits so far
+  D id[2];        ///< number of the collider that was hit; -1: none
+  F far;          ///< upper bound of distance
 
   PacketTraversal() = default;
   MURO_INLINE PacketTraversal(const PacketSetup& s, double max_range) : setup(&s) {
@@ -126,14 +126,14 @@ struct PacketTraversal {
       accept(h, enter_half_space(D(f.height), dot(splat(f.normal), setup->direction[h])), f.id);
     update_far();
   }
-  /// Takes distances that were found for all rays; infinity for those that hit nothing.
+  /// Takes distances that were found for all rays; infinity for rays that hit nothing.
   MURO_INLINE void take(const double* found, std::uint32_t found_id) {
     for (int h = 0; h < 2; ++h) accept(h, load<D>(found + 8 * h), found_id);
     update_far();
   }
 
  private:
-  /// Takes the hits that are nearer than those so far.
+  /// Takes the hits that are nearer than the hits so far.
   MURO_INLINE void accept(int h, D found, double found_id) {
     if constexpr (with_ids) {
       const auto nearer = (found < distance[h]) | ((found == distance[h]) & (D(found_id) < id[h]));

@@ -12,14 +12,14 @@ MURO_INLINE V3<double> vector_at(const double* n) { return {n[0], n[1], n[2]}; }
 /// The axes of a frame: rows of a matrix.
 struct Axes {
   V3<double> x, y, z;
-  /// The vector in the frame.
+  /// Returns the vector in the frame.
   MURO_INLINE V3<double> operator*(const V3<double>& v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
 };
 MURO_INLINE Axes axes_at(const double* n) { return {vector_at(n), vector_at(n + 3), vector_at(n + 6)}; }
 
 MURO_INLINE void put(double* to, const V3<double>& v) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
 
-/// The box around the primitive relative to the scanner, clipped and enlarged as in BlockFromScanner.
+/// Sets the box around the primitive relative to the scanner, clipped and enlarged as in BlockFromScanner.
 MURO_INLINE void bound(const Primitive& s, const Axes& axes, const V3<double>& centre, double max_range,
                        PlacedPrimitive& p) {
   const auto half_extent = [&s](double x, double y, double z) {
@@ -40,7 +40,7 @@ MURO_INLINE void bound(const Primitive& s, const Axes& axes, const V3<double>& c
   for (int k = 0; k < 3; ++k) p.low[k] = float(low[k] - margin), p.high[k] = float(high[k] + margin);
 }
 
-/// A primitive of a robot at the present pose of its body.
+/// Places a primitive of a robot at the present pose of its body.
 inline void place_on_robot(const Primitive& s, const ScanQuery& query, PlacedPrimitive& p) {
   const double* b = s.body;
   const lane::M3<double> body = lane::Q4<double>{b[3], b[4], b[5], b[6]}.matrix();
@@ -56,7 +56,7 @@ inline void place_on_robot(const Primitive& s, const ScanQuery& query, PlacedPri
   bound(s, axes, centre, query.max_range, p);
 }
 
-/// A primitive of the scenery; without its box.
+/// Places a primitive of the scenery, without its box.
 MURO_INLINE void place_in_scenery(const Primitive& s, const ScanQuery& query, PlacedPrimitive& p) {
   p.kind = s.kind;
   p.id = s.id;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What is in range of a scanner: found once a scan, sixteen boxes at a time.
+// Finds the boxes in range of a scanner, once a scan, sixteen boxes at a time.
 //
-// Floats decide only what can be skipped, and they err on the safe side. A box relative to the scanner is clipped to
-// the cube of the scanner's range, so that none of its points is farther away than 1.8 `extent`, its greatest
-// coordinate, and is then enlarged by 4e-6 extent: several times the rounding error of floats at that distance. Where a
-// ray enters the true box after t, the distances to the planes of the enlarged box, computed with an error of 2.4e-7 t,
-// enclose t; and a frustum plane that has the ray on its inner side, rotated in floats with an error of 1e-6 in its
-// normal, has a corner of the enlarged box on that side as well.
+// Floats only decide what can be skipped, and their errors never skip too much. A box relative to the scanner is
+// clipped to the cube of the scanner's range, so that all its points are nearer than 1.8 `extent`, its greatest
+// coordinate. It is then enlarged by 4e-6 extent, several times the rounding error of floats at that distance. If a ray
+// enters the true box after t, the distances to the planes of the enlarged box, computed with an error of 2.4e-7 t,
+// enclose t. If a ray is on the inner side of a frustum plane, which is rotated in floats with an error of 1e-6 in its
+// normal, a corner of the enlarged box is on that side as well.
 #pragma once
 
 #include "lanes.hpp"
@@ -23,7 +23,7 @@ inline constexpr std::uint32_t robot_bit = 1u << 31;
 struct TableOrigin {
   float position[3];
   float range;
-  float rounding;  ///< m, of the differences of coordinates, at most `range`
+  float rounding;  ///< m, rounding error of differences of coordinates, at most `range`
 
   MURO_INLINE TableOrigin(const BoxTable& table, const ScanQuery& query) {
     float extent = table.extent;
@@ -40,7 +40,7 @@ struct TableOrigin {
 struct BlockFromScanner {
   F low[3], high[3];
   F extent;
-  F near2;  ///< square of the distance
+  F near2;  ///< square of the distance, m^2
 
   MURO_INLINE BlockFromScanner(const BoxBlock& boxes, const TableOrigin& origin) {
     const F range(origin.range);
@@ -61,8 +61,8 @@ struct BlockFromScanner {
   }
 };
 
-/// How far (m) each box overlaps the region of the rays, which lies between two cones about the z axis of the device;
-/// negative for a box that is completely above or below it.
+/// Returns the overlap (m) of each box with the region of the rays, which is between two cones about the z axis of the
+/// device; negative for a box that is completely above or below the region.
 MURO_INLINE F elevation_overlap(const BlockFromScanner& b, const ScanQuery& s) {
   const float ux(float(s.axes[2])), uy(float(s.axes[5])), uz(float(s.axes[8]));
   const F half(0.5f);
@@ -80,8 +80,8 @@ MURO_INLINE F elevation_overlap(const BlockFromScanner& b, const ScanQuery& s) {
   return lane::min(up + half_height - bottom, top - (up - half_height)) + b.extent * F(slack);
 }
 
-/// Finds the boxes of a table that are in range; calls visit(BoxBlock, BlockFromScanner, bits) for each block with
-/// some.
+/// Finds the boxes of a table that are in range. Calls visit(BoxBlock, BlockFromScanner, bits) for each block that has
+/// such boxes.
 template <class Visit>
 MURO_INLINE void find_in_range(const BoxTable& table, const ScanQuery& query, Visit visit) {
   const TableOrigin origin(table, query);
@@ -98,12 +98,12 @@ MURO_INLINE void find_in_range(const BoxTable& table, const ScanQuery& query, Vi
   }
 }
 
-/// Candidates sorted into bins by distance, each a thirty-second of the range: near ones hide far ones.
+/// Candidates sorted into bins by distance, each a thirty-second of the range: near candidates hide far ones.
 class DistanceBins {
  public:
   explicit DistanceBins(double max_range) : per_metre_(float(count / max_range)) {}
 
-  /// The bin of each box, as a float.
+  /// Finds the bin of each box, as a float.
   MURO_INLINE void bins_of(const BlockFromScanner& relative, float (&bins)[16]) const {
     store(bins, lane::min(lane::sqrt(relative.near2) * F(per_metre_), F(count - 1)));
   }
@@ -124,7 +124,7 @@ class DistanceBins {
       block.item[to % 16] = boxes.item[from.index % 16];
     }
     const std::uint32_t blocks = (candidates + 15) / 16;
-    std::uint32_t bin = 0;  // of the first candidate in a block; begin_[bin] is now where the bin ends
+    std::uint32_t bin = 0;  // bin of the first candidate in a block; begin_[bin] is now the end of the bin
     for (std::uint32_t b = 0; b < blocks; ++b) {
       Candidates& block = scratch.in_range[b];
       block.count = candidates - 16 * b < 16 ? candidates - 16 * b : 16;

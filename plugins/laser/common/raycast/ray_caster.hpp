@@ -10,15 +10,15 @@ namespace muro::raycast {
 using scanner::Viewpoint;
 
 /// Casts the rays of one scan after the other. Keeps only scratch memory between scans, so that any thread can serve
-/// any scanner; one caster serves one thread.
+/// any scanner. One caster serves one thread.
 class RayCaster {
  public:
   /// Reserves memory for the scene and the pattern, so that casting does not allocate.
   void reserve(const SceneTable& scene, const RayPattern& pattern);
 
-  /// The distance (m) along each ray to the nearest shape, between min_range and max_range, and, when `hits` is not
-  /// empty, the object that the shape belongs to (no_object for nothing). Both are as long as the pattern. A device
-  /// whose pose is not finite sees nothing. [step]
+  /// Finds the distance (m) along each ray to the nearest shape, between min_range and max_range. If `hits` is not
+  /// empty, also finds the object of that shape (no_object if there is none). Both are as long as the pattern. A device
+  /// with a pose that is not finite sees nothing. [step]
   void cast(const ScanKernels& kernels, const SceneTable& scene, const Viewpoint& from, const RayPattern& pattern,
             std::span<double> ranges, std::span<ObjectId> hits);
 

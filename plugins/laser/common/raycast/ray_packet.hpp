@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Rays as the kernels read them: in packets of sixteen (Wald et al., Interactive rendering with coherent ray tracing,
-// Eurographics 2001).
+// Rays in the form that the kernels read: in packets of sixteen (Wald et al., Interactive rendering with coherent ray
+// tracing, Eurographics 2001).
 #pragma once
 
 #include <cstdint>
 
 namespace muro::raycast {
 
-/// Four planes through the device around some rays: all rays have normal * direction >= 0. In the frame of the device;
-/// unit normals, or zeros, which cull nothing, around rays that point too far apart.
+/// Four planes through the device around some rays: all rays have normal * direction >= 0. In the frame of the device.
+/// The normals are unit vectors. They are zeros, which cull nothing, if the rays point too far apart.
 struct Frustum {
   float x[4] = {}, y[4] = {}, z[4] = {};
 };
 
-/// Rays that lie side by side, in the frame of the device.
+/// Neighbouring rays, in the frame of the device.
 struct alignas(64) RayPacket {
   static constexpr int size = 16;
   double x[size], y[size], z[size];  ///< unit directions; elements from `count` on repeat the last ray
@@ -23,7 +23,7 @@ struct alignas(64) RayPacket {
   Frustum frustum;                    ///< around the rays
 };
 
-/// Packets that lie side by side: `first` to `first + count` - 1.
+/// Neighbouring packets: `first` to `first + count` - 1.
 struct Sector {
   static constexpr std::uint32_t max_packets = 8;
   std::uint32_t first = 0;

@@ -11,11 +11,11 @@ namespace muro::raycast {
 
 namespace {
 
-constexpr double margin = 1e-12;  // by which bounds are wider
+constexpr double margin = 1e-12;  // bounds are wider by this
 
 Vec3 ray_of(const RayPacket& b, std::uint32_t i) { return {b.x[i], b.y[i], b.z[i]}; }
 
-/// The frustum through the smallest rectangle around the rays on the plane at distance 1 along their mean direction.
+/// Returns the frustum of the smallest rectangle around the rays on the plane at distance 1 along their mean direction.
 Frustum enclose(std::span<const RayPacket> packets) {
   Vec3 middle = Vec3::Zero();
   for (const RayPacket& b : packets)
@@ -30,7 +30,7 @@ Frustum enclose(std::span<const RayPacket> packets) {
     for (std::uint32_t i = 0; i < b.count; ++i) {
       const Vec3 d = ray_of(b, i);
       const double ahead = middle.dot(d);
-      if (ahead < 0.2) return {};  // too wide for a projection
+      if (ahead < 0.2) return {};  // too wide for this projection
       for (int k = 0; k < 2; ++k) {
         low[k] = std::min(low[k], sides[k].dot(d) / ahead);
         high[k] = std::max(high[k], sides[k].dot(d) / ahead);
@@ -52,7 +52,7 @@ Frustum enclose(std::span<const RayPacket> packets) {
 }  // namespace
 
 RayPattern::RayPattern(const RaySet& rays) : size_(rays.size()) {
-  // Tiles of 4 x 4, 2 x 8 or 1 x 16 rays: the more square, the fewer boxes they meet.
+  // Tiles of 4 x 4, 2 x 8 or 1 x 16 rays: tiles that are more square meet fewer boxes.
   for (std::uint32_t row = 0, tile_rows = 0; row < rays.rows; row += tile_rows) {
     const std::uint32_t left = rays.rows - row;
     tile_rows = left >= 4 ? 4 : left >= 2 ? 2 : 1;
@@ -75,7 +75,7 @@ void RayPattern::add(const Vec3& d, std::uint32_t ray, RayPacket& b) {
   b.y[b.count] = d.y();
   b.z[b.count] = d.z();
   b.ray[b.count++] = ray;
-  // Above 89.9 degrees the slope is no useful bound.
+  // Above 89.9 degrees the slope is not a useful bound.
   const double horizontal = elementary::hypot(d.x(), d.y());
   const double slope =
       horizontal > 1.7e-3 ? d.z() / horizontal : std::copysign(std::numeric_limits<double>::infinity(), d.z());

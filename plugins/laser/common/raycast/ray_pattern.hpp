@@ -13,19 +13,19 @@ using scanner::direction_of;
 using scanner::Grid;
 using scanner::RaySet;
 
-/// The rays of a scanner: their directions in the frame of the device, in packets.
+/// The rays of a scanner: directions in the frame of the device, in packets.
 class RayPattern {
  public:
   explicit RayPattern(const RaySet& rays);
   explicit RayPattern(const Grid& grid) : RayPattern(RaySet::of(grid)) {}
-  /// Pairs of azimuth and elevation (rad).
+  /// `azimuths_and_elevations`: pairs, rad.
   explicit RayPattern(std::span<const double> azimuths_and_elevations)
       : RayPattern(RaySet::of(azimuths_and_elevations)) {}
 
   std::uint32_t size() const { return size_; }
   std::span<const RayPacket> packets() const { return packets_; }
   std::span<const Sector> sectors() const { return sectors_; }
-  /// Least and greatest z / sqrt(x^2 + y^2) of the rays; infinite for a ray along the z axis.
+  /// Return the least and greatest z / sqrt(x^2 + y^2) of the rays; infinite for a ray along the z axis.
   double min_slope() const { return min_slope_; }
   double max_slope() const { return max_slope_; }
 

@@ -40,7 +40,7 @@ TEST(ScanPattern, HoldsEveryRayExactlyOnce) {
   }
 }
 
-/// How far (in terms of the unit direction) a direction lies inside the planes; negative outside.
+/// Returns the distance of a direction (unit) to the nearest plane from the inside; negative outside.
 double inside(const Frustum& f, const Vec3& d) {
   double min = 1;
   for (int k = 0; k < 4; ++k) min = std::min(min, f.x[k] * d.x() + f.y[k] * d.y() + f.z[k] * d.z());

@@ -16,7 +16,7 @@ void Raycast::prepare(std::span<const RaySet> sets) {
   for (const RaySet& set : sets) patterns_.emplace_back(set);
 }
 
-/// Copies the shapes at the first time, and the poses of robots every time.
+/// Copies the shapes the first time, and the poses of robots each time.
 void Raycast::update() {
   if (built_) return table_.update(*scene_);
   table_.build(*scene_, heightmaps_);

@@ -26,12 +26,12 @@ class Raycast final : public scanner::Method {
   bool built_ = false;
 };
 
-/// The meshes among the collision shapes, which this method does not see.
+/// The number of meshes among the collision shapes, which this method does not see.
 struct MeshCount {
   std::size_t count = 0;
   std::string_view first_object;
 };
-/// [setup]
+/// Counts the meshes. [setup]
 MeshCount count_meshes(const Connector& c);
 
 }  // namespace muro::raycast

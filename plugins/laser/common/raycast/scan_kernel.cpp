@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a scan is cast. All rays of a scanner start at one point and neighbours hit the same things, so the search is
+// Casts a scan. All rays of a scanner start at one point, and neighbouring rays hit the same shapes. So the search is
 // shared, coarse to fine:
 //
 //   scan     the boxes in range and between the lowest and the highest elevation, sorted by distance
@@ -8,8 +8,8 @@
 //   box      of these, those that one of the 16 rays enters before its nearest hit so far
 //   rays     the exact intersection, 8 rays at a time, in the frame of the shape
 //
-// All but the last work in floats, which drop only what is certainly missed (range_culling.hpp); distances, and the
-// decisions at edges and between neighbours, come from doubles alone.
+// All steps but the last work in floats, which only drop what is certainly missed (range_culling.hpp). Distances, and
+// the decisions at edges and between neighbours, are computed in doubles only.
 #include "heightmap_traversal.hpp"
 
 namespace muro::raycast {
@@ -17,7 +17,7 @@ namespace {
 
 using namespace rays;
 
-constexpr std::uint32_t many_blocks = 8;  ///< from here on culling by sector saves more time than it takes
+constexpr std::uint32_t many_blocks = 8;  ///< from this number on, culling by sector saves more time than it takes
 
 template <bool with_ids>
 class Scan {
@@ -45,7 +45,7 @@ class Scan {
   }
 
  private:
-  /// The planes that some ray may hit.
+  /// Gathers the planes that some ray may hit.
   void gather_planes() {
     for (std::uint32_t i = 0; i < view_.plane_count; ++i) {
       const Plane& plane = view_.planes[i];
@@ -59,12 +59,12 @@ class Scan {
       candidate.id = plane.id;
     }
   }
-  /// The greatest way (m) that a ray of 1 m goes against the normal. Its elevation above the xy plane of the device is
-  /// at least `low`; where that plane dips most, by the angle phi to the one of the normal, the ray points phi - low
-  /// down.
+  /// Returns the greatest distance (m) that a ray of 1 m moves against the normal. The elevation of a ray above the xy
+  /// plane of the device is at least `low`. In the direction in which that plane dips most, by the angle phi between
+  /// both normals, the ray points phi - low down.
   double steepest_descent(const V3<double>& normal) const {
     const V3<double> up{query_.axes[2], query_.axes[5], query_.axes[8]};
-    const double cosine = dot(normal, up);  // of phi
+    const double cosine = dot(normal, up);  // cosine of phi
     const V3<double> across = normal - cosine * up;
     const double sine = lane::sqrt(dot(across, across));
     const double slope = lane::max(lane::min(query_.min_slope, 1e30), -1e30);
@@ -147,7 +147,7 @@ class Scan {
     if (item & robot_bit) return intersect_robot(scratch_.robots[item & ~robot_bit], rays);
     const Primitive& primitive = view_.primitives[item];
     if (primitive.kind == PrimitiveKind::aligned_box) return rays.intersect_aligned_box(primitive, query_);
-    if (primitive.kind == PrimitiveKind::heightmap) return;  // cast_over_heightmaps
+    if (primitive.kind == PrimitiveKind::heightmap) return;  // see cast_over_heightmaps
     PlacedPrimitive p;
     place_in_scenery(primitive, query_, p);
     rays.intersect(p);
@@ -187,8 +187,8 @@ class Scan {
   const ScanQuery& query_;
   const Scratch& scratch_;
   const ScanOutput& output_;
-  const Candidates* candidates_ = nullptr;  ///< of the sector
-  std::uint32_t blocks_ = 0;                ///< of candidates
+  const Candidates* candidates_ = nullptr;  ///< candidates of the sector
+  std::uint32_t blocks_ = 0;                ///< number of blocks of candidates
   std::uint32_t placed_ = 0, planes_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whole scans of scenes against a reference that tests every ray with every shape.
+// Scans of whole scenes, compared with a reference that tests every ray with every shape.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -15,7 +15,7 @@ namespace {
 std::atomic<long> allocations{0};
 }
 
-// Not inlined: gcc 12 takes an inlined pair for a mismatched one.
+// Not inlined: gcc 12 reports an inlined pair as mismatched.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* p = std::malloc(size)) return p;
@@ -53,7 +53,7 @@ std::vector<Vec3> directions(const RayPattern& pattern) {
   return rays;
 }
 
-/// All patterns of the tests: planar, round, tall, coarse, straight up, single, listed.
+/// Returns all patterns of the tests: planar, round, tall, coarse, straight up, single, listed.
 std::vector<RayPattern> patterns(Dice& dice) {
   std::vector<RayPattern> all;
   all.emplace_back(Grid{.min_angle = -2.0862, .max_angle = 2.0924, .columns = 682});
@@ -88,7 +88,7 @@ TestScene city(Dice& dice, int things, int robots, bool ground) {
   return scene;
 }
 
-/// Puts the robots at new places.
+/// Moves the robots to new places.
 void move_robots(TestScene& scene, Dice& dice) {
   for (std::size_t r = 0; r < scene.robot_count(); ++r) {
     const Pose base = dice.pose(10);
@@ -98,7 +98,7 @@ void move_robots(TestScene& scene, Dice& dice) {
   }
 }
 
-/// How many of the rays meet something.
+/// Returns the number of rays that hit something.
 int expect_agreement(const SceneIndex& scene, const Viewpoint& from, double min_range, const RayPattern& pattern,
                      const Scan& found) {
   const std::vector<Vec3> rays = directions(pattern);
@@ -136,7 +136,7 @@ TEST(LaserScan, AgreesWithBruteForceForAllPatternsAmongMovingRobots) {
 }
 
 TEST(LaserScan, AgreesWithBruteForceForALevelScannerOnATurningRobot) {
-  // The usual case: upright boxes, level device, everything parallel or perpendicular to the plane of the scan.
+  // The usual case: upright boxes, a level device, all faces parallel or perpendicular to the plane of the scan.
   Dice dice(6);
   RayCaster caster;
   const RayPattern pattern(Grid{.min_angle = -2.0862, .max_angle = 2.0924, .columns = 682});
@@ -154,8 +154,8 @@ TEST(LaserScan, AgreesWithBruteForceForALevelScannerOnATurningRobot) {
 }
 
 TEST(LaserScan, SeparatesObjectsAMillimetreBehindEachOther) {
-  // Slats of 2 cm, seen by three or four rays each, in an order that is not theirs by distance; then the same just in
-  // front of the greatest range.
+  // Slats of 2 cm, seen by three or four rays each, in an order that is not their order by distance. Then the same just
+  // within the greatest range.
   RayCaster caster;
   const RayPattern pattern(Grid{.min_angle = -0.3, .max_angle = 0.3, .columns = 320});
   for (const double distance : {3.0, 5.58}) {
@@ -174,7 +174,7 @@ TEST(LaserScan, GivesClosedFormDistancesAtAnyIncidenceInAnyFrame) {
   Dice dice(7);
   RayCaster caster;
   for (int round = 0; round < 20; ++round) {
-    const Pose world = dice.pose(50);  // the whole arrangement, moved
+    const Pose world = dice.pose(50);  // pose of the whole arrangement
     for (const double incidence : {0.0, pi / 4, 80 * pi / 180}) {
       const double aim[] = {incidence, 0};
       const RayPattern one{std::span<const double>(aim)};
@@ -197,7 +197,7 @@ TEST(LaserScan, GivesClosedFormDistancesAtAnyIncidenceInAnyFrame) {
 }
 
 TEST(LaserScan, AgreesWithBruteForceInACrowd) {
-  // More than fit into sixteen blocks of sixteen, and more in reach than a sector looks at one by one.
+  // More boxes than fit into sixteen blocks of sixteen, and more in range than a sector tests one by one.
   Dice dice(14);
   RayCaster caster;
   TestScene scene = city(dice, 700, 40, true);
@@ -236,7 +236,7 @@ TEST(LaserScan, AgreesWithBruteForceFarFromTheOriginWithAllSizes) {
 }
 
 TEST(LaserScan, SeesTheFirstOfTwoThingsAtTheSameDistance) {
-  // Faces in one plane, in scenery and in a robot; the rays are parallel to no face.
+  // Faces in one plane, in scenery and in a robot. The rays are parallel to no face.
   TestScene scene;
   const ObjectId first = scene.add_scenery(Shape::box({2, 2, 2}), {{5, 0, 0}, Quat::Identity()});
   scene.add_scenery(Shape::box({1, 4, 4}), {{4.5, 0, 0}, Quat::Identity()});

@@ -20,7 +20,7 @@ PrimitiveKind kind_of(const Shape& shape, const Quat& turn) {
   }
 }
 
-/// The shape at `pose`, in the world or in its body.
+/// Returns the shape at `pose`, in the world or in its body.
 Primitive primitive_of(const Shape& shape, const Pose& pose, std::uint32_t id) {
   Primitive s;
   const Vec3 half = half_extents(shape);
@@ -38,12 +38,12 @@ Primitive primitive_of(const Shape& shape, const Pose& pose, std::uint32_t id) {
   return s;
 }
 
-/// Whether the shape is a primitive; a heightmap, which is one in scenery alone, is looked up before.
+/// Whether the shape is a primitive. Heightmaps, which are primitives only in scenery, are handled before.
 bool has_bounds(const Shape& shape) {
   return shape.kind != ShapeKind::plane && shape.kind != ShapeKind::mesh && shape.kind != ShapeKind::heightmap;
 }
 
-/// The box around the points of `box`, which is in the frame of `pose`.
+/// Returns the box around `box`, which is given in the frame of `pose`.
 Aabb placed(const Aabb& box, const Pose& pose) {
   Shape around = Shape::box(box.high - box.low);
   return bounds_of(around, pose * Pose{0.5 * (box.low + box.high), Quat::Identity()});
@@ -82,7 +82,7 @@ void SceneTable::build(const SceneIndex& scene, const HeightTrees& trees) {
     PrimitiveRange& range = robots_[index_of(c.robot)];
     if (range.count++ == 0) range.first = primitive_of_collider[i];
     Primitive s = primitive_of(*c.shape, c.shape->origin, i);
-    if (s.kind == PrimitiveKind::aligned_box) s.kind = PrimitiveKind::box;  // its body turns
+    if (s.kind == PrimitiveKind::aligned_box) s.kind = PrimitiveKind::box;  // the body may turn
     s.body = c.body_pose->position.data();
     primitives_.push_back(s);
   }

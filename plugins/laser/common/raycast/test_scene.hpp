@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes for the tests of the kernels: an index built here, and a reference that is independent of the kernels.
+// Scenes for tests of the kernels: an index that is built here, and a reference that is independent of the kernels.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class TestScene {
     scenery_.push_back({shape, pose});
     return ObjectId(std::uint32_t(scenery_.size()));
   }
-  /// Robots come after all scenery. All shapes of a robot belong to one object.
+  /// Adds a robot. All scenery must be added before. All shapes of a robot belong to one object.
   ObjectId add_robot(std::vector<PlacedShape> shapes) {
     robots_.push_back(std::move(shapes));
     return ObjectId(std::uint32_t(scenery_.size() + robots_.size()));
@@ -32,7 +32,7 @@ class TestScene {
   std::vector<PlacedShape>& robot(std::size_t number) { return robots_[number]; }
   std::size_t robot_count() const { return robots_.size(); }
 
-  /// Right until the scene changes.
+  /// Returns the index, which is valid until the scene changes.
   const SceneIndex& index() {
     colliders_.clear();
     planes_.clear();
@@ -74,7 +74,7 @@ class TestScene {
     colliders_.push_back({&p.shape, &p.pose, body, robot, shape_index});
   }
 
-  /// Halves the items along the longest side until two are left.
+  /// Halves the items along the longest side until two items remain.
   static void build(std::vector<BvhNode>& nodes, std::vector<std::uint32_t>& items, const std::vector<Aabb>& bounds) {
     nodes.clear();
     if (items.empty()) return;
@@ -113,8 +113,8 @@ class TestScene {
   SceneIndex index_;
 };
 
-/// The first point of a solid along a ray, in long double: every face, end and side is intersected by itself, what
-/// lies off the solid is dropped, the smallest distance counts. No hierarchy, no intervals.
+/// Finds the first point of a solid along a ray, in long double. Each face, end and side is intersected alone, points
+/// off the solid are dropped, and the smallest distance counts. Uses no hierarchy and no intervals.
 class Reference {
  public:
   using Real = long double;
@@ -208,7 +208,7 @@ class Reference {
     void try_at(Real t, On on) {
       if (t >= 0 && t < best && on({o.x + t * d.x, o.y + t * d.y, o.z + t * d.z})) best = t;
     }
-    /// a t^2 + 2 b t + c = 0
+    /// Tries both solutions of a t^2 + 2 b t + c = 0.
     template <class On>
     void try_quadratic(Real a, Real b, Real c, On on) {
       const Real discriminant = b * b - a * c;

@@ -11,14 +11,14 @@ namespace muro::scanner {
 
 namespace {
 
-/// The mean distance from the middle of the disc's outer six sevenths, in terms of its radius:
+/// The mean distance from the middle of the disc's outer six sevenths, by its radius:
 /// 2/3 (1 - a^3) / (1 - a^2) with a^2 = 1/7.
 constexpr double ring_radius = 0.7359;
-/// The divergence of a beam that is a line but has to measure its incidence: wide enough for differences, too thin for
+/// Divergence of a beam that is a line but has to measure its incidence: wide enough for differences, too thin to mix
 /// edges.
 constexpr double thin_cone = 2e-4;
 
-/// Two directions square to `d` and to each other.
+/// Returns two directions perpendicular to `d` and to each other.
 std::pair<Vec3, Vec3> across(const Vec3& d) {
   const Vec3 other = std::abs(d.z()) < 0.99 ? Vec3::UnitZ() : Vec3::UnitX();
   const Vec3 left = other.cross(d).normalized();

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double nothing = 10;
 
-/// What the seven rays of a beam along x read on the plane normal * p = distance.
+/// Returns the ranges of the seven rays of a beam along x on the plane normal * p = distance.
 std::vector<double> on_plane(const Beam& beam, const Vec3& normal, double distance) {
   std::vector<double> ranges;
   for (const Vec3& d : beam.widened({.directions = {Vec3::UnitX()}, .columns = 1}).directions)
@@ -50,7 +50,7 @@ TEST(ABeam, TellsTheIncidenceOnAPlane) {
 TEST(ABeam, TellsTheIncidenceOfTheSurfaceInItsMiddleAtAnEdge) {
   const Beam beam(0.01);
   std::vector<double> near = on_plane(beam, Vec3(std::cos(0.5), std::sin(0.5), 0), 2);
-  near[1] = near[2] = near[6] = 8;  // beside it something far
+  near[1] = near[2] = near[6] = 8;  // something far beside it
   EXPECT_NEAR(beam.read(near.data(), nothing).incidence, 0.5, 1e-5);
 }
 

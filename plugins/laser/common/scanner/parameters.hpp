@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parameters and outputs that laser scanners of all methods have.
+// Parameters and outputs of laser scanners of all methods.
 #pragma once
 
 #include <array>
@@ -51,7 +51,7 @@ inline constexpr PropertyUse writes[] = {
     mounting_writes,
 };
 
-/// The shared entries and those of a method.
+/// Returns the shared entries followed by those of a method.
 template <class T, std::size_t n, std::size_t m>
 constexpr std::array<T, n + m> joined(const T (&shared)[n], const T (&own)[m]) {
   std::array<T, n + m> all{};

@@ -122,7 +122,7 @@ void Scanner::bind(Connector& c, const Item& item) {
   devices_.push_back(d);
 }
 
-/// Set 0 is the full scan. Of a sweep, each column is a set of its own, or all columns of a step are one set.
+/// Makes the sets of rays. Set 0 is the full scan. In a sweep each column, or each step, has a set as well.
 void Scanner::make_sets(const RaySet& full) {
   std::vector<RaySet> sets;
   const auto add = [&](std::uint32_t first, std::uint32_t end) {

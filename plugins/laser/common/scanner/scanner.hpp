@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What laser scanners of all methods have in common: parameters, properties, the width of beams, the sweep of a scan.
+// Common part of laser scanners of all methods: parameters, properties, the width of beams, the sweep of a scan.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace muro::scanner {
 
-/// The base of the plugins laser.*, whose descriptions list the parameters and writes of parameters.hpp.
+/// Base of the plugins laser.*. Their descriptions list the parameters and writes of parameters.hpp.
 class Scanner : public Algorithm {
  public:
   explicit Scanner(std::unique_ptr<Method> method) : method_(std::move(method)) {}
@@ -34,7 +34,7 @@ class Scanner : public Algorithm {
     ArrayOut<double> sweep_ranges, sweep_incidence;  ///< of the scan in progress
     ArrayOut<ObjectId> sweep_hits;
   };
-  /// Where the readings of a scan go.
+  /// Destination of the readings of a scan.
   struct Scan {
     std::span<double> ranges, incidence;
     std::span<ObjectId> hits;
@@ -52,14 +52,14 @@ class Scanner : public Algorithm {
   bool casts_rays_in(std::uint64_t step) const;
   void serve(const Device& d, std::uint64_t index);
   void sweep(const Device& d, std::uint64_t index);
-  /// Casts a set with the rays of `columns` columns from `first` on, all rows of each.
+  /// Casts a set that has the rays of `columns` columns from `first` on, with all rows of each column.
   void cast(std::size_t set, const Viewpoint& from, std::uint32_t first, std::uint32_t columns, const Scan& scan);
 
   std::unique_ptr<Method> method_;
   std::vector<Device> devices_;
   Grid grid_;  ///< a list of directions is one row
   bool is_list_ = false;
-  std::vector<std::size_t> sets_of_steps_;  ///< of a sweep whose steps are one set each
+  std::vector<std::size_t> sets_of_steps_;  ///< number of the set of each step, if a sweep has one set for each step
   std::optional<Beam> beam_;
   std::optional<Sweep> sweep_;
   Pose mounting_;

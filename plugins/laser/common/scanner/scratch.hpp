@@ -6,7 +6,7 @@
 
 namespace muro::scanner {
 
-/// The first `size` elements of memory that grows when it has to and never shrinks: once warm, nothing is allocated.
+/// Returns the first `size` elements of `memory`, which grows if needed and never shrinks: no allocation after warm-up.
 template <class T>
 std::span<T> scratch(std::vector<T>& memory, std::size_t size) {
   if (memory.size() < size) memory.resize(size);

@@ -8,7 +8,7 @@
 namespace muro::scanner {
 
 Sweep::Sweep(const Grid& grid, bool is_list, std::uint32_t steps) : first_(steps + 1, grid.columns) {
-  std::uint32_t next = 0;  // the step whose first column is not known yet
+  std::uint32_t next = 0;  // first step without a known first column
   for (std::uint32_t column = 0; column < grid.columns; ++column) {
     const double revolutions =
         is_list ? double(column) / grid.columns : (grid.azimuth(column) - grid.first_angle()) / (2 * std::numbers::pi);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scan whose rays are taken one after the other, each from where the device is at that time.
+// A scan with rays taken one after the other, each from the pose of the device at that time.
 #pragma once
 
 #include "rays.hpp"
@@ -7,18 +7,18 @@
 namespace muro::scanner {
 
 /// A scan in `steps` steps of the algorithm: one revolution of the mirror. For a grid the mirror turns at constant
-/// speed and counter-clockwise, from the first azimuth at the start of the scan all around; all rows of a column
-/// are taken together. The rays of a list are spread evenly over the scan.
+/// speed and counter-clockwise through a full turn, from the first azimuth at the start of the scan. All rows of a
+/// column are taken together. The rays of a list are spread evenly over the scan.
 class Sweep {
  public:
   Sweep(const Grid& grid, bool is_list, std::uint32_t steps);
 
   std::uint32_t steps() const { return std::uint32_t(first_.size() - 1); }
-  /// The columns taken between step k - 1 and step `k`: first(k) to first(k + 1) - 1.
+  /// Returns the first column taken between step k - 1 and step `k`; the last one is first(k + 1) - 1.
   std::uint32_t first(std::uint32_t k) const { return first_[k]; }
-  /// When a column is taken within its step: 0 at the step before, 1 at the step.
+  /// Returns the time of a column within its step: 0 at the previous step, 1 at the step.
   double time_fraction(std::uint32_t column) const { return time_fractions_[column]; }
-  /// The last step in which a ray is taken; the scan is complete then.
+  /// Returns the last step in which a ray is taken; the scan is complete then.
   std::uint32_t last_step() const { return last_step_; }
 
  private:

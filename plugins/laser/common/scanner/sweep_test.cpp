@@ -11,7 +11,7 @@ namespace {
 using std::numbers::pi;
 
 TEST(ASweep, TakesEveryColumnOnceWhenTheMirrorPointsThere) {
-  // the URG-04LX: 1024 steps of the mirror in a turn of 100 ms, 682 of them read
+  // the URG-04LX: 1024 steps of the mirror in a turn of 100 ms, 682 of them measured
   const Grid urg{.min_angle = 0, .max_angle = 681 * 2 * pi / 1024, .columns = 682};
   for (const std::uint32_t steps : {2u, 7u, 100u, 5000u}) {
     const Sweep sweep(urg, false, steps);

@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// rad between pixels, however few rays there are.
+/// Greatest angle between pixels, rad, even for few rays.
 constexpr double max_spacing = pi / 180;
 
 /// The rays of one camera.
@@ -24,12 +24,12 @@ struct CameraRays {
   std::vector<std::uint32_t> rays;
 };
 
-/// The arc of azimuths that the rays use, rad.
+/// The arc of azimuths of the rays, rad.
 struct AzimuthSpan {
   double first = 0, width = 0;
 };
 
-/// The shortest arc that holds all azimuths: what is left of the circle without its widest gap.
+/// Returns the shortest arc that contains all azimuths: the circle without its widest gap.
 AzimuthSpan span_of(std::vector<double> azimuths) {
   if (azimuths.empty()) return {};
   std::sort(azimuths.begin(), azimuths.end());
@@ -68,27 +68,27 @@ std::vector<CameraRays> rays_by_camera(const scanner::RaySet& rays) {
   return cameras;
 }
 
-/// What the rays of a camera cover of the plane at distance 1, along one side.
+/// The part of the plane at distance 1 that the rays of a camera cover, along one side.
 struct PlaneInterval {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   void include(double x) {
     low = std::min(low, x);
     high = std::max(high, x);
   }
-  /// An image that is one pixel high or wide needs no neighbours.
+  /// Whether the image is one pixel high or wide: then it needs no neighbours.
   bool is_line() const { return high - low < 1e-9; }
 };
 
-/// Pixels along one side, and where the axis lies on it.
+/// Number of pixels along one side, and the position of the axis on it.
 struct Side {
   std::uint32_t pixels = 1;
-  double axis = 0;  ///< px, such that a point p of the plane is seen at axis - focal p
+  double axis = 0;  ///< px; a point p of the plane is seen at axis - focal p
 };
 
 Side side_of(const PlaneInterval& e, double focal) {
   if (e.is_line()) return {1, 0.5 + focal * e.low};
   const double first = e.high * focal;  // the highest point is in the first pixel
-  constexpr double too_many = 1e9;      // as many as that are refused later
+  constexpr double too_many = 1e9;      // so many pixels are refused later
   const auto between = std::uint32_t(std::ceil(std::min((e.high - e.low) * focal - 1e-6, too_many)));
   return {between + 1 + 2 * CameraRig::margin, first + 0.5 + CameraRig::margin};
 }

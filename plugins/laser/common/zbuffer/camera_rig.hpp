@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pinhole cameras whose images contain all rays of a scanner.
+// Pinhole cameras with images that contain all rays of a scanner.
 #pragma once
 
 #include "plugins/common/render/camera.hpp"
@@ -7,28 +7,28 @@
 
 namespace muro::zbuffer {
 
-/// Where a ray finds its distance.
+/// The position of a ray in an image.
 struct RaySample {
   std::uint32_t camera = 0;
-  double column = 0, row = 0;   ///< in the image of the camera, in pixels: whole numbers are centres of pixels
+  double column = 0, row = 0;   ///< in the image of the camera, in pixels; whole numbers are centres of pixels
   double length_per_depth = 0;  ///< length of the ray by depth along the axis of the camera
 };
 
-/// A pinhole camera looks along x, and its pixels lie evenly on a plane, so that their angles become smaller towards
-/// the sides (MuRoSimF, Section 4.1). A scan that is wider than `max_width` is seen by several cameras side by side,
-/// and rays that look steeply up or down by two more.
+/// A pinhole camera looks along x. Its pixels are evenly spaced on a plane, so that their angles become smaller towards
+/// the sides (MuRoSimF, Section 4.1). A scan that is wider than `max_width` is seen by several cameras side by side.
+/// Rays that point steeply up or down are seen by two more.
 struct CameraRig {
   static constexpr double max_width = 1.6;      ///< rad, across
-  static constexpr double max_elevation = 0.9;  ///< rad, up or down, of rays seen by the cameras side by side
-  static constexpr std::uint32_t margin = 2;    ///< pixels around the rays, which interpolation needs
+  static constexpr double max_elevation = 0.9;  ///< rad, up or down, limit of rays seen by the cameras side by side
+  static constexpr std::uint32_t margin = 2;    ///< pixels around the rays, needed by interpolation
 
-  std::vector<render::Camera> cameras;  ///< with their pose in the frame of the device
+  std::vector<render::Camera> cameras;  ///< with their poses in the frame of the device
   std::vector<RaySample> samples;       ///< one for each ray
 
-  /// `pixels`: at least so many for each ray, across and down, where the pixels of a camera are widest apart.
+  /// `pixels`: lower bound for each ray, across and down, at the place where the pixels of a camera are widest apart.
   static CameraRig of(const scanner::RaySet& rays, double pixels);
 
-  /// Of all images, one below the other.
+  /// Return the size of all images, one below the other.
   std::uint32_t width() const;
   std::uint32_t height() const;
 };

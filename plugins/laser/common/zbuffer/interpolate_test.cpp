@@ -6,7 +6,7 @@
 namespace muro::zbuffer {
 namespace {
 
-/// As one float, and in a vector of eight.
+/// Interpolates one float and a vector of eight, which must agree.
 float interpolate(float a, float b, float c, float d, float f) {
   const auto eight = [](float x) { return Float8{x, x, x, x, x, x, x, x}; };
   const float one = zbuffer::interpolate<float>(a, b, c, d, f);

@@ -5,7 +5,7 @@
 
 #include "interpolate.hpp"
 
-// Compiled for several instruction sets; all give the same bits, since no operations are contracted.
+// Compiled for several instruction sets. All give the same bits, as no operations are contracted.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define MURO_FOR_EACH_ISA __attribute__((target_clones("default", "avx2")))
 #else
@@ -18,12 +18,12 @@ namespace {
 
 constexpr std::size_t width = 8;
 
-/// The values of eight pixels, each `offset` after one of `pixel`.
+/// Reads the values of eight pixels, each `offset` after one of `pixel`.
 MURO_ALWAYS_INLINE void gather(const float* image, const std::int32_t* pixel, std::int32_t offset, Float8& out) {
   for (std::size_t k = 0; k < width; ++k) out[k] = image[pixel[k] + offset];
 }
 
-/// Interpolated between four pixels, each `step` after the one before.
+/// Interpolates between four pixels, each `step` after the previous one.
 MURO_ALWAYS_INLINE void interpolate_line(const float* image, const std::int32_t* pixel, std::int32_t first,
                                          std::int32_t step, const Float8& f, Float8& out) {
   Float8 a, b, c, d;

@@ -10,10 +10,10 @@ namespace muro::zbuffer {
 
 namespace {
 
-constexpr double tolerance = 2e-4;  ///< m: by which the polygons that stand for circles may be too small
-/// m along the axis of a camera. Nothing nearer is drawn; the precision of depths does not depend on it.
+constexpr double tolerance = 2e-4;  ///< m, largest error of the polygons that represent circles
+/// m along the axis of a camera. Nearer surfaces are not drawn. The precision of depths does not depend on this value.
 constexpr double near_plane = 1e-3;
-constexpr std::uint32_t max_pixels = 8192;  ///< along a side, which every OpenGL 4.5 can draw
+constexpr std::uint32_t max_pixels = 8192;  ///< along a side; every OpenGL 4.5 can draw so many
 
 ImageShape shape_of(const render::Camera& c) {
   if (c.width == 1) return c.height == 1 ? ImageShape::pixel : ImageShape::column;
@@ -62,7 +62,7 @@ void ZBuffer::prepare(std::span<const scanner::RaySet> sets) {
   for (DepthImage& image : images_) place_samples(image);
 }
 
-/// To be called when the width of the target is known.
+/// Computes the samples. Call it when the width of the target is known.
 void ZBuffer::place_samples(DepthImage& image) const {
   image.resampling.resize(image.rig.cameras.size());
   const auto stride = std::int32_t(width_);

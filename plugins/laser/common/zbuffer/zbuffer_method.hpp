@@ -31,22 +31,22 @@ class ZBuffer final : public scanner::Method {
   bool is_cheap_for_few_rays() const override { return false; }
 
  private:
-  /// What is drawn for a set of rays: the images of its cameras lie one below the other.
+  /// The image that is drawn for a set of rays: the images of its cameras, one below the other.
   struct DepthImage {
     CameraRig rig;
-    std::uint32_t columns = 0;  ///< of rays that form a grid; else 0
+    std::uint32_t columns = 0;  ///< columns of rays that form a grid; otherwise 0
     std::uint32_t height = 0;
     std::vector<std::uint32_t> tops;  ///< first row of each camera
     struct Resampling {
       Samples samples;
-      Samples columns;  ///< of rays that form a grid; else empty
+      Samples columns;  ///< columns of rays that form a grid; otherwise empty
     };
-    std::vector<Resampling> resampling;  ///< of each camera
+    std::vector<Resampling> resampling;  ///< for each camera
   };
 
   void place_samples(DepthImage& image) const;
   void draw(const DepthImage& image, const scanner::Viewpoint& from, bool labels);
-  /// The object whose solid shape contains the device, if any.
+  /// Returns the object with a solid shape that contains the device, if any.
   ObjectId containing_object(const scanner::Viewpoint& from) const;
 
   double supersampling_ = 1;
@@ -54,7 +54,7 @@ class ZBuffer final : public scanner::Method {
   Host* host_ = nullptr;
   render::Scene scene_;
   std::vector<DepthImage> images_;
-  std::uint32_t width_ = 1, height_ = 1;  ///< of a target large enough for each image
+  std::uint32_t width_ = 1, height_ = 1;  ///< size of a target large enough for each image
   bool is_outdated_ = true;               ///< whether bodies may have moved since the GPU scene was updated
   std::optional<render::Context> context_;
   std::optional<render::GpuScene> gpu_scene_;

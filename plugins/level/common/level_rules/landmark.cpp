@@ -28,7 +28,7 @@ std::vector<std::string> names_of_places(const Connector& c) {
   return names;
 }
 
-/// Objects of the scenery with shapes.
+/// Returns the names of objects of the scenery with shapes.
 std::vector<std::string> names_of_scenery(const Connector& c) {
   std::vector<std::string> names;
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {

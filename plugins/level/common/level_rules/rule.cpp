@@ -40,7 +40,7 @@ double number_in(std::string_view text, const std::string& word) {
   return x;
 }
 
-/// Whether the words after the first are these; `#` stands for a number, `@` for a name.
+/// Whether the words after the first match the pattern; `#` matches a number, `@` a name.
 bool fits(const std::vector<std::string>& words, std::span<const std::string_view> pattern) {
   if (words.size() != pattern.size() + 1) return false;
   for (std::size_t i = 0; i < pattern.size(); ++i)
@@ -69,7 +69,7 @@ Rule parse_rule(std::string_view text, std::span<const std::string> names) {
   const struct {
     Rule::When when;
     std::span<const std::string_view> pattern;
-    std::size_t number;  ///< which of the words, 0: none
+    std::size_t number;  ///< index of the word with the number; 0: none
   } forms[] = {{Rule::When::at, at, 2},
                {Rule::When::nearer, nearer, 4},
                {Rule::When::farther, farther, 4},

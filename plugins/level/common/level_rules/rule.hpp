@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When a robot is to be moved by another of its motions, as a user writes it.
+// Rules that decide when another motion moves a robot, as a user writes them.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Rule {
     slower,          ///< NAME when slower than FACTOR: the run, in units of real time
     faster,          ///< NAME when faster than FACTOR
   };
-  std::uint32_t level = 0;  ///< in the list of names
+  std::uint32_t level = 0;  ///< index in the list of names
   When when = When::at;
   double number = 0;  ///< s, m or 1
   std::string what;   ///< empty: any or all robots
@@ -33,7 +33,7 @@ struct Rule {
   bool by_run_speed() const { return when == When::slower || when == When::faster; }
 };
 
-/// Throws Error that says what is allowed. `names`: of the robot's motions.
+/// Parses a rule. Throws Error that says what is allowed. `names`: names of the robot's motions.
 Rule parse_rule(std::string_view text, std::span<const std::string> names);
 
 }  // namespace muro::level

@@ -12,7 +12,7 @@
 
 namespace muro::level {
 
-// For the descriptions of algorithms that go by rules.
+// Parameters and properties for the descriptions of algorithms that use rules.
 inline constexpr Parameter parameters[] = {
     texts("rules", "which motion moves the robot, and when; the first rule that holds decides; none: only `dwell`"),
     real("dwell", "s", 0.1, "a motion moves the robot for so long at least").between(0, 1e6),
@@ -25,24 +25,24 @@ inline constexpr PropertyUse reads[] = {
 };
 inline constexpr PropertyUse writes[] = {{"motion.level.rule", "of the robot"}};
 
-/// Chooses which of its motions moves each robot, by rules. Where none holds, `motion.level.target` is what counts,
-/// which control code writes. Whoever has handed a robot over, its motion is kept for `dwell`, as counted from the run
-/// that sees it.
+/// Chooses by rules which of its motions moves each robot. If no rule holds, `motion.level.target` decides, which
+/// control code writes. After a change by anyone the motion is kept for `dwell`, counted from the run that sees the
+/// change.
 class RulesAlgorithm : public Algorithm {
  public:
-  /// Throws Error when a rule is not understood, or goes by the speed of the run where `run_speed_is_known` is false.
+  /// Throws Error if a rule is not understood, or depends on the speed of the run and `run_speed_is_known` is false.
   void connect(Connector& connector) override;
 
  protected:
   explicit RulesAlgorithm(bool run_speed_is_known) : run_speed_is_known_(run_speed_is_known) {}
 
-  /// `run_speed`, in units of real time: nothing when it is not known yet.
+  /// `run_speed`: in units of real time; nothing if it is not known yet.
   void choose(const Step& step, Range range, std::optional<double> run_speed = std::nullopt) const;
 
  private:
   struct Condition {
     Rule rule;
-    Landmark landmark;  ///< for rules by distance and place
+    Landmark landmark;  ///< for rules about distance and place
   };
   struct Robot {
     std::vector<Condition> conditions;

@@ -42,7 +42,7 @@ std::optional<Subsystem> read_camera(SensorReading& s, Element& e, const std::st
   const auto within = take_pose(camera);
   if (!within) return std::nullopt;
   Subsystem made = s.begin(name, "camera.opengl", *within);
-  double width = 320, height = 240, near = 0.1, far = 100;  // of camera.sdf
+  double width = 320, height = 240, near = 0.1, far = 100;  // defaults of camera.sdf
   if (Element* const image = camera.section("image")) {
     Fields fields(*image, camera.owner() + ", <image>", camera.messages());
     width = fields.number("width", 1, 8192).value_or(width);

@@ -54,7 +54,7 @@ Subsystems read_lidar(SensorReading& s) {
                              " rays; at most ", most_in_all, " are possible"));
       return {};
     }
-    if (across.max_angle - across.min_angle > 2 * M_PI) across.max_angle = across.min_angle + 2 * M_PI;  // once round
+    if (across.max_angle - across.min_angle > 2 * M_PI) across.max_angle = across.min_angle + 2 * M_PI;  // one turn
     made.add("rays", double(across.samples));
     made.add("min_angle", across.min_angle);
     made.add("max_angle", across.max_angle);

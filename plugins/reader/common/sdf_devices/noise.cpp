@@ -7,7 +7,7 @@ namespace muro::sdf_devices {
 
 namespace {
 
-constexpr double most = 3e8;  // sums of three stay within what a sensor.error takes
+constexpr double most = 3e8;  // sums of three such values stay within the limits of sensor.error
 
 std::string_view type_attribute(const Element& e) {
   const char* const type = e.Attribute("type");

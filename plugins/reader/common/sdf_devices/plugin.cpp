@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plugins of Gazebo that drive wheels, by their files and parameters:
+// Plugins of Gazebo that drive wheels, recognised by their names and read by their parameters:
 // gazebo_ros_pkgs (diff_drive, skid_steer_drive, ackermann_drive) and gz-sim (DiffDrive, AckermannSteering).
 #include "plugin.hpp"
 
@@ -26,7 +26,7 @@ class PluginFields : public Fields {
   PluginFields(Element& plugin, std::string owner, const PartNames& parts, Messages& messages)
       : Fields(plugin, std::move(owner), messages), parts_(parts) {}
 
-  /// The joints that children of these names list, in this order.
+  /// Returns the joints that children with these names list, in this order.
   std::vector<std::string> joints(std::initializer_list<const char*> names) {
     std::vector<std::string> joints;
     for (const char* const name : names)
@@ -39,7 +39,7 @@ class PluginFields : public Fields {
       }
     return joints;
   }
-  /// A name that no joint has which moves; empty: none.
+  /// First listed name that is not a moving joint; empty if all are moving joints.
   const std::string& unknown() const { return unknown_; }
 
  private:
@@ -86,7 +86,7 @@ std::optional<Subsystem> side_drive(PluginFields& fields, bool is_skid_steer, co
 std::optional<Subsystem> ackermann(PluginFields& fields, const FileLocation& at) {
   Subsystem drive("drive", "drive.ackermann", at);
   if (!add_joints(drive, fields, "steering", {"left_steering_joint", "right_steering_joint"})) return std::nullopt;
-  // gz-sim drives all wheels that it names, gazebo_ros_pkgs the rear ones
+  // gz-sim drives all named wheels, gazebo_ros_pkgs only the rear wheels
   if (!add_joints(drive, fields, "driven", {"left_joint", "right_joint"}))
     add_joints(drive, fields, "driven", {"rear_left_joint", "rear_right_joint"});
   add_wheel_radius(drive, fields);
@@ -107,7 +107,7 @@ bool names_any(std::string_view file, std::initializer_list<std::string_view> pa
 Device read_plugin(Element& plugin, PartNames& parts, Messages& messages) {
   const char* const file_name = plugin.Attribute("filename");
   const FileLocation at = messages.at(plugin);
-  // classic plugins are known by their files, those of gz-sim by their classes
+  // classic plugins are recognised by their file name, those of gz-sim by their class name
   const std::string known_by = lower_letters(plugin, "filename") + " " + lower_letters(plugin, "name");
   PluginFields fields(plugin, concat("plugin ", quote(file_name ? file_name : "")), parts, messages);
   Device device{fields.owner(), at, {}};

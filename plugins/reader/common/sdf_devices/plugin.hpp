@@ -6,8 +6,8 @@
 
 namespace muro::sdf_devices {
 
-/// A <plugin> of a model. Those that drive the wheels of a vehicle by a twist become `drive.differential`,
-/// `drive.skid_steer` or `drive.ackermann`; all others become nothing, and are listed.
+/// Reads a <plugin> of a model. A plugin that drives the wheels of a vehicle by a twist becomes `drive.differential`,
+/// `drive.skid_steer` or `drive.ackermann`. All others become nothing and are listed.
 Device read_plugin(Element& plugin, PartNames& parts, Messages& messages);
 
 }  // namespace muro::sdf_devices

@@ -20,7 +20,7 @@ struct Kind {
   Subsystems (*read)(SensorReading&);
 };
 
-/// Types of SDFormat 1.2 to 1.9.
+/// Sensor types of SDFormat 1.2 to 1.9.
 constexpr std::array<Kind, 19> kinds{{{"ray", read_lidar},
                                       {"gpu_ray", read_lidar},
                                       {"lidar", read_lidar},
@@ -46,7 +46,7 @@ std::string attribute_of(const Element& e, const char* name) {
   return text ? text : "";
 }
 
-/// Fixed-axis roll, pitch, yaw (rad) of a rotation; without roll where pitch is a right angle.
+/// Returns fixed-axis roll, pitch, yaw (rad) of a rotation; roll is 0 if pitch is a right angle.
 Vec3 rpy_of(const Quat& q) {
   const Mat3 r = q.toRotationMatrix();
   const double level = std::sqrt(r(0, 0) * r(0, 0) + r(1, 0) * r(1, 0));
@@ -55,7 +55,7 @@ Vec3 rpy_of(const Quat& q) {
   return {elementary::atan2(r(2, 1), r(2, 2)), pitch, elementary::atan2(r(1, 0), r(0, 0))};
 }
 
-/// A name that a subsystem can have.
+/// Makes a valid name of a subsystem.
 std::string subsystem_name(std::string name) {
   for (char& c : name)
     if (c == '/' || c == ':' || static_cast<unsigned char>(c) <= ' ') c = '_';
@@ -102,7 +102,7 @@ Subsystem SensorReading::begin(const std::string& called, std::string_view use, 
     made.add("rate", *rate);
   else
     made.add("rate", "on_demand");
-  // one is all of its link; the other measures in the axes of its link (forcetorque.sdf, frame `child`)
+  // a bumper covers its link; force_torque measures in the axes of its link (forcetorque.sdf, frame `child`)
   if (use == "sensor.bumper" || use == "sensor.force_torque") return made;
   const DevicePose origin = pose * within;
   const Vec3 &p = origin.pose.position, &turn = origin.rpy;

@@ -10,33 +10,33 @@
 
 namespace muro::sdf_devices {
 
-/// A sensor, and its errors behind it.
+/// A sensor, followed by its errors.
 using Subsystems = std::vector<Subsystem>;
 
-/// A <sensor> of SDFormat on a link or a joint of a robot as subsystems of a scenario: ranges, rate, noise and pose are
-/// those of the file. What has no counterpart is told.
-/// Its names are those of the file, see Device::place.
+/// Reads a <sensor> of SDFormat on a link or a joint of a robot as subsystems of a scenario. Ranges, rate, noise and
+/// pose are those of the file. Features without a counterpart are reported. Names are those of the file, see
+/// Device::place.
 Device read_sensor(Element& sensor, const std::string& mounted_on, Messages& messages);
 
 /// A <pose> of SDFormat.
 struct DevicePose {
   Pose pose{Vec3::Zero(), Quat::Identity()};  ///< in the frame around it, m
   Vec3 rpy = Vec3::Zero();                    ///< the same rotation as fixed-axis roll, pitch, yaw, rad
-  /// That of a device within this one.
+  /// Pose of a device `within` this one, in the frame around this one.
   DevicePose operator*(const DevicePose& within) const;
 };
 
 /// One <sensor> that is being read.
 struct SensorReading {
-  Fields& fields;  ///< of <sensor>
+  Fields& fields;  ///< children of <sensor>
   std::string type;
-  std::string name;  ///< as a subsystem
+  std::string name;  ///< name of the subsystem
   std::string mounted_on;
   DevicePose pose;  ///< in the frame of its link
   std::optional<double> rate;
   FileLocation location;
 
-  /// A subsystem with mount, rate and pose of the sensor, or of a device `within` it.
+  /// Returns a subsystem with mount, rate and pose of the sensor, or of a device `within` it.
   Subsystem begin(const std::string& called, std::string_view use, const DevicePose& within = {}) const;
 };
 
@@ -48,7 +48,8 @@ Subsystems read_gps(SensorReading& s);
 Subsystems read_contact(SensorReading& s);
 Subsystems read_force_torque(SensorReading& s);
 
-/// The <pose> of a sensor or camera in its parent; nothing, and a warning, where it is not one in that frame.
+/// Reads the <pose> of a sensor or camera in its parent. Warns and returns nothing if the pose is given in another
+/// frame.
 std::optional<DevicePose> take_pose(Fields& fields);
 
 }  // namespace muro::sdf_devices

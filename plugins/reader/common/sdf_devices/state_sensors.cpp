@@ -9,7 +9,7 @@ namespace muro::sdf_devices {
 
 namespace {
 
-/// The noise of each axis: <x><noise>...
+/// Reads the noise of each axis: <x><noise>...
 std::vector<Noise> noise_of_axes(Element& parent, const std::string& owner, Messages& messages) {
   std::vector<Noise> noise(3);
   Fields axes(parent, owner, messages);
@@ -24,7 +24,7 @@ std::vector<Noise> noise_of_axes(Element& parent, const std::string& owner, Mess
   return noise;
 }
 
-/// The noise that SDFormat 1.4 states once for all axes: <noise><rate> and <accel>.
+/// Reads the noise that SDFormat 1.4 states once for all axes: <noise><rate> and <accel>.
 void take_old_noise(Fields& imu, std::vector<Noise>& rates, std::vector<Noise>& accelerations) {
   Element* const e = imu.section("noise");
   if (!e) return;

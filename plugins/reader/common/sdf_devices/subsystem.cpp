@@ -23,7 +23,7 @@ bool is_plain(std::string_view text) {
          std::all_of(text.begin(), text.end(), is_name) && std::find(other.begin(), other.end(), lower) == other.end();
 }
 
-/// A YAML scalar, in quotes where it needs them.
+/// Returns a YAML scalar, quoted if necessary.
 std::string scalar(std::string_view text) {
   if (is_plain(text)) return std::string(text);
   std::string quoted = "\"";
@@ -71,7 +71,7 @@ std::string Subsystem::text() const {
 }
 
 void Device::place(const std::string& prefix, const std::string& part, PartNames& names) {
-  std::map<std::string, std::string> sensors;  // new names, by the old ones
+  std::map<std::string, std::string> sensors;  // new names by old names
   for (Subsystem& s : subsystems) {
     const auto sensor = sensors.find(s.mounted_on());
     s.mount_on(sensor != sensors.end() ? sensor->second : part);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Between places on the earth and a plane that touches it: WGS 84 (NIMA TR8350.2), east, north, up.
+// Converts between places on the earth and a plane that touches it: WGS 84 (NIMA TR8350.2), east, north, up.
 #pragma once
 
 #include <cmath>
@@ -25,7 +25,7 @@ inline constexpr double e2 = f * (2 - f);       ///< square of the first eccentr
 inline constexpr double b = a * (1 - f);        ///< m, polar radius
 inline constexpr double second_e2 = e2 / (1 - e2);
 
-/// In the frame of the earth: m from its centre, x to (0, 0), z to the north pole.
+/// Returns the position in the frame of the earth: m from its centre, x to (0, 0), z to the north pole.
 inline Vec3 to_earth(const GeodeticPlace& place) {
   const auto [sin_lat, cos_lat] = elementary::sincos(place.latitude);
   const auto [sin_lon, cos_lon] = elementary::sincos(place.longitude);
@@ -34,8 +34,8 @@ inline Vec3 to_earth(const GeodeticPlace& place) {
           (n * (1 - e2) + place.altitude) * sin_lat};
 }
 
-/// The inverse, by Bowring's formula (Survey Review 23, 1976) put into itself three times: to 1e-12 rad and 1e-8 m up
-/// to some 1000 km from the surface.
+/// Returns the place of a position in the frame of the earth. Applies Bowring's formula (Survey Review 23, 1976) three
+/// times: errors are below 1e-12 rad and 1e-8 m up to about 1000 km from the surface.
 inline GeodeticPlace from_earth(const Vec3& p) {
   const double across = std::sqrt(p.x() * p.x() + p.y() * p.y());
   double tan_u = across > 0 ? p.z() / across * (a / b) : 0;
@@ -61,7 +61,7 @@ inline GeodeticPlace from_earth(const Vec3& p) {
 
 }  // namespace wgs84
 
-/// The plane that touches the ellipsoid's parallel surface at a reference.
+/// The horizontal plane through a reference: it touches there the surface that is parallel to the ellipsoid.
 class LocalPlane {
  public:
   LocalPlane() = default;
@@ -77,7 +77,7 @@ class LocalPlane {
         0, cos_lat, sin_lat;
   }
 
-  /// Of a point, m east, north and up of the reference.
+  /// Returns the place of a point that is given in m east, north and up of the reference.
   GeodeticPlace place_of(const Vec3& east_north_up) const { return wgs84::from_earth(origin_ + axes_ * east_north_up); }
 
  private:

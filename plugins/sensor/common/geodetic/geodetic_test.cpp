@@ -8,7 +8,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// GeographicLib: `echo 33.3 44.4 6000 | CartConvert`.
+/// Compares with GeographicLib: `echo 33.3 44.4 6000 | CartConvert`.
 TEST(Geodetic, PlacesAreWhereGeographicLibPutsThem) {
   const Vec3 seen = wgs84::to_earth({33.3 * degree, 44.4 * degree, 6000});
   EXPECT_LT((seen - Vec3(3816209.60, 3737108.55, 3485109.57)).norm(), 0.01);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What receivers of satellite navigation say of their world: a constant on the object of the sensor.
+// Data of receivers of satellite navigation about their world: a constant on the object of the sensor.
 #pragma once
 
 #include "muro/geometry.hpp"

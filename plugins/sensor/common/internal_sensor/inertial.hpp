@@ -8,12 +8,12 @@
 
 namespace muro::internal_sensor {
 
-/// What such a device measures.
+/// Quantities that such a device measures.
 struct Measures {
   bool angular_velocity = false, linear_acceleration = false, orientation = false;
 };
 
-/// What is kept of a device; outputs that it has not are unset.
+/// Data of a device; outputs that it does not have are unset.
 struct InertialDevice {
   link_motion::LinkMotion motion;
   Out<Vec3> angular_velocity, linear_acceleration;
@@ -28,7 +28,7 @@ class InertialSensor : public PerRobotAlgorithm<InertialDevice> {
     for (std::uint32_t i = 0; i < c.items().size(); ++i) robot(i).motion.check(c);
   }
 
-  /// f = R^T (a - g), w = R^T w, with the axes R of the device.
+  /// Computes f = R^T (a - g), w = R^T w, with the axes R of the device.
   void step(const Step&, Range range) override {
     for (const InertialDevice& d : robots(range)) {
       const link_motion::FrameMotion m = d.motion.now();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What contacts do to a link, one by one, whoever finds them.
+// The contact wrenches of a link, one for each contact, from all sources.
 #pragma once
 
 #include <vector>
@@ -10,37 +10,37 @@
 
 namespace muro::internal_sensor {
 
-/// Whether forces move the robot, at some of its motions at least. [setup, from the connect of a sensor on]
+/// Whether forces move the robot, in at least one of its motions. [setup, from the connect of a sensor on]
 bool is_moved_by_forces(const Connector& c, const RobotView& robot);
 
-/// When what contacts do to a link is asked for.
+/// Conditions under which the contacts of a link are read.
 enum class When : std::uint8_t {
   always,
   kinematic,  ///< only while no force moves the robot
 };
 
-/// Of one link. An engine lists what its contacts have done in the last step with the robots that it moves, so what
-/// they do to a robot that no force moves is looked for there.
+/// Contacts of one link. An engine lists the contact wrenches of the last step of the robots that it moves. So the
+/// contacts of a robot that no force moves are found in the lists of other robots.
 class LinkContacts {
  public:
   LinkContacts() = default;
   /// [setup]
   LinkContacts(Connector& c, const RobotView& robot, std::uint32_t link, When when = When::always);
 
-  /// Whether anything that forces move could push the link, itself or another.
+  /// Whether the link can have contacts with forces: forces move its robot or another robot.
   bool any() const { return law_ || motion_ || !others_.empty(); }
-  /// Whether the lists of other robots are read, too.
+  /// Whether the lists of other robots are read as well.
   bool reads_other_robots() const { return !others_.empty(); }
   /// Whether a motion by forces moves the robot. [step]
   bool is_dynamic() const { return muro::is_moved_by_forces(*world_); }
 
-  /// Calls f(contact, sign) for each; `sign` is 1 where `contact` is as the link feels it, -1 where it feels the
-  /// opposite. [step]
+  /// Calls f(contact, sign) for each contact of the contact algorithm. `sign`: 1 if the link feels the wrench of
+  /// `contact`, -1 if it feels the opposite. [step]
   template <class F>
   void each_of_law(const F& f) const {
     each(law_, f);
   }
-  /// `by_own`: of the engine that moves the robot; else of those of others, which matter where no force moves it.
+  /// Calls f for each contact of the engine that moves the robot (`by_own`), or of the engines of other robots.
   template <class F>
   void each_of_engines(bool by_own, const F& f) const {
     if (by_own) return each(motion_, f);
@@ -61,7 +61,7 @@ class LinkContacts {
   ObjectId link_ = no_object;
   In<std::uint64_t> world_;  ///< see keys::contact_world
   ListIn<ContactWrench> law_, motion_;
-  std::vector<ListIn<ContactWrench>> others_;  ///< of engines, where it may be that no force moves the robot
+  std::vector<ListIn<ContactWrench>> others_;  ///< lists of engines, if it is possible that no force moves the robot
 };
 
 }  // namespace muro::internal_sensor

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What acts on a link from outside, whoever finds it: an engine, the contact algorithm, others.
+// The external wrench on a link from all sources: an engine, the contact algorithm, others.
 #pragma once
 
 #include <cmath>
@@ -8,13 +8,13 @@
 
 namespace muro::internal_sensor {
 
-/// Which of what acts on a link counts.
+/// Selects the wrenches on a link that count.
 enum class Load : std::uint8_t {
-  contacts,  ///< what contacts have done in the last step that they were looked for
-  all,       ///< all that acted in the last step, such as thrust, too: what belongs to its accelerations
+  contacts,  ///< contact wrenches of the last step in which contacts were searched
+  all,       ///< all wrenches of the last step, also thrust: those that belong to its accelerations
 };
 
-/// Of one link. Where no force has moved the robot, only contacts with robots that forces move are known.
+/// Load of one link. If no force has moved the robot, only contacts with robots that forces move are known.
 class LinkLoad {
  public:
   LinkLoad() = default;
@@ -30,12 +30,12 @@ class LinkLoad {
     }
   }
 
-  /// Whether contacts with their forces are known, of engines or of the contact algorithm.
+  /// Whether contacts are known with their forces, from engines or from the contact algorithm.
   bool knows_contacts() const { return engine_ || contacts_.any(); }
-  /// Whether the lists of other robots are read, too.
+  /// Whether the lists of other robots are read as well.
   bool reads_other_robots() const { return contacts_.reads_other_robots(); }
 
-  /// On the link, at its origin, world axes. `origin`: where that is in the world, m. [step]
+  /// Returns the wrench on the link, at its origin, world axes. `origin`: of the link in the world, m. [step]
   Wrench wrench(const Vec3& origin) const {
     Wrench sum;
     const auto add = [&](const ContactWrench& contact, double sign) {
@@ -54,7 +54,7 @@ class LinkLoad {
   }
 
  private:
-  /// Whether the last step was one of a motion by forces. Before the first step it is zero.
+  /// Whether the last step was one of a motion by forces. Before the first step the applied wrench is zero.
   bool is_applied_known() const {
     if (!applied_ || !std::isfinite(applied_->force.sum() + applied_->torque.sum())) return false;
     return contacts_.is_dynamic() || !applied_->force.isZero(0) || !applied_->torque.isZero(0);

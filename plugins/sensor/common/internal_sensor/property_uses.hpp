@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What internal sensors say of the properties that they read.
+// Descriptions of the properties that internal sensors read.
 #pragma once
 
 #include "muro/description.hpp"

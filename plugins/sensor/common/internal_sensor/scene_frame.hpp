@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The frame of anything in the scene, as sensors name it.
+// The frame of any object in the scene, named by a sensor.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace muro::internal_sensor {
 
-/// How the frame of an object moves: of a part of a robot, or of scenery, which stands. Without one: the world.
+/// Motion of the frame of a part of a robot, or of scenery, which does not move. Without an object: of the world.
 class SceneFrame {
  public:
   SceneFrame() = default;
   SceneFrame(link_motion::LinkMotion link)  // NOLINT(google-explicit-constructor): it is one
       : link_(std::move(link)) {}
-  /// Of what `name` stands for: a part of the robot of `item`, a robot (its base), `robot/part`, or scenery. Throws
-  /// Error where there is nothing of this name that has a pose. [setup]
+  /// Returns the frame of the object `name`: a part of the robot of `item`, a robot (its base), `robot/part`, or
+  /// scenery. Throws Error if there is no object of this name with a pose. [setup]
   static SceneFrame named(Connector& c, const Item& item, std::string_view name) {
     using link_motion::LinkMotion, link_motion::Order;
     for (const RobotView* robot : c.robots())
@@ -45,7 +45,7 @@ class SceneFrame {
 
  private:
   link_motion::LinkMotion link_;
-  Pose standing_;  ///< of what stands
+  Pose standing_;  ///< pose of an object that does not move
 };
 
 }  // namespace muro::internal_sensor

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What sensor.neighbours tells, for it and for those who work on it.
+// The reading of sensor.neighbours, for the sensor and for algorithms that process it.
 #pragma once
 
 #include "muro/key.hpp"
@@ -12,10 +12,10 @@ struct Neighbour {
   double distance = 0;   ///< m
   double bearing = 0;    ///< rad, -pi .. pi: counter-clockwise about z from x
   double elevation = 0;  ///< rad, -pi/2 .. pi/2: from the xy plane towards z
-  double heading = 0;    ///< rad, -pi .. pi: of its x axis, measured as the bearing
+  double heading = 0;    ///< rad, -pi .. pi: of its x axis, measured like the bearing
 };
 
-/// The order of a list: the nearest first; of equal ones that of the lower number.
+/// Order of a list: the nearest first; at equal distances the lower number first.
 inline bool is_listed_before(const Neighbour& a, const Neighbour& b) {
   return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
 }
