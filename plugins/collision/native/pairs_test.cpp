@@ -93,7 +93,7 @@ TEST(Pairs, CapsulesMeetWhereTheirAxesAreNearest) {
 }
 
 TEST(Pairs, BoxEdgesThatCrossGiveTheirCommonPerpendicular) {
-  // Both stand on an edge: one's ridge runs along x, the other's valley-side edge along y.
+  // Both boxes stand on an edge: the ridge of one runs along x, the lowest edge of the other along y.
   const double ridge = std::sqrt(2.0) / 2;
   const TransformedShape lower = at(Shape::box({4, 1, 1}), {0, 0, 0}, from_rpy(M_PI / 4, 0, 0));
   const TransformedShape upper = at(Shape::box({1, 4, 1}), {0.2, -0.3, 2 * ridge - 0.05}, from_rpy(0, M_PI / 4, 0));
