@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hulls and triangles against what is known of them otherwise.
+// Compares hulls and triangles with results that are known in other ways.
 #include "hulls/expanding_polytope.hpp"
 #include "hulls/hull_plane.hpp"
 #include "hulls/mesh_pairs.hpp"

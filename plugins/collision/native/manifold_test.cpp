@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How many points a resting contact has, and where.
+// Number and places of the points of a resting contact.
 #include <algorithm>
 
 #include "muro/toolkit/rotations.hpp"

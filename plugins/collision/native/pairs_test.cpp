@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Depth, normal and place of the deepest point, against closed forms and geometry.
+// Depth, normal and place of the deepest point, compared with closed forms and geometry.
 #include "muro/toolkit/rotations.hpp"
 #include "pairs_testing.hpp"
 
