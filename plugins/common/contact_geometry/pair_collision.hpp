@@ -39,8 +39,7 @@ struct PairPoint {
 struct Candidates {
   /// Place of a contact in the list, and its numbers.
   struct Listed {
-    std::uint64_t
-        body_and_rank;  ///< first collider of the own body; rank: 0 for scenery, else index in `robots` plus one
+    std::uint64_t body_and_rank;     ///< first collider of the own body; 0: scenery, else index in `robots` plus one
     std::uint64_t body_and_own;      ///< first collider of the other body; own collider
     std::uint64_t other_and_number;  ///< other collider; number among those equal so far, or in `found`
     const double* numbers;           ///< point, normal, depth; null: they are in `found`
@@ -103,8 +102,7 @@ class PairCollision : public Algorithm {
 
   /// Returns the shape of a collider at its present pose. [any thread]
   virtual TransformedShape transformed_shape(std::uint32_t collider) const = 0;
-  /// Adds the points in which two colliders with overlapping bounds overlap; normals point from `b` to `a`. [any
-  /// thread]
+  /// Adds the points in which two colliders with overlapping bounds overlap; normals: from `b` to `a`. [any thread]
   virtual void collide(const TransformedCollider& a, const TransformedCollider& b,
                        std::vector<ContactPoint>& points) = 0;
   /// Returns a lower bound (m) of the distance of two colliders; not positive: unknown, or they touch. [any thread]
@@ -155,8 +153,8 @@ class PairCollision : public Algorithm {
   struct Pair {
     static constexpr std::size_t most_close = 16;
     std::uint32_t leader = 0, other = 0;  ///< `leader` precedes; equal: no robots so far
-    double until = 0;           ///< m: other colliders touch only after both together have moved farther than this
-    bool has_too_many = false;  ///< more are close than fit, so all count as close
+    double until = 0;                     ///< m: others touch only after both together have moved farther than this
+    bool has_too_many = false;            ///< more are close than fit, so all count as close
     std::uint8_t close_count = 0;
     std::array<Close, most_close> close;
     std::uint32_t first = 0, count = 0;  ///< points of their contact, in `points_` of the leader
@@ -231,15 +229,15 @@ class PairCollision : public Algorithm {
       {.index_space = Phase::IndexSpace::robots}};
   std::vector<Pair> pairs_;                     ///< by number of the pair
   std::vector<std::vector<PairPoint>> points_;  ///< by robot: points in which it touches those that it precedes
-  /// By robot: robots whose bounds overlap its own, while any two may be near; from phase 2 on those that it may touch.
+  /// Robots whose bounds overlap those of a robot, while any two may be near; from phase 2 on those that it may touch.
   std::vector<std::vector<Near>> near_;
-  std::vector<double> travel_;               ///< by robot, m: an upper bound of how far its shapes have moved in total
-  std::vector<double> last_move_;            ///< by robot, m: in the last step; 0 if that is unknown
-  std::vector<std::uint64_t> followed_in_;   ///< by robot: last step of follow()
-  std::vector<Pose> followed_;               ///< by collider, first one of each body: pose of the body then
-  std::vector<TransformedCollider> placed_;  ///< by collider
-  std::vector<std::uint8_t> is_placed_;      ///< by collider, for robots that may touch others in this step
-  std::vector<double> radii_;  ///< by collider, m: radius of a ball about the origin of its body that holds it
+  std::vector<double> travel_;                ///< by robot, m: an upper bound of how far its shapes have moved in total
+  std::vector<double> last_move_;             ///< by robot, m: in the last step; 0 if that is unknown
+  std::vector<std::uint64_t> followed_in_;    ///< by robot: last step of follow()
+  std::vector<Pose> followed_;                ///< by collider, first one of each body: pose of the body then
+  std::vector<TransformedCollider> placed_;   ///< by collider
+  std::vector<std::uint8_t> is_placed_;       ///< by collider, for robots that may touch others in this step
+  std::vector<double> radii_;                 ///< by collider, m: of a ball about the origin of its body that holds it
   std::vector<std::uint32_t> first_of_body_;  ///< by collider: first collider of its body
   std::vector<OwnLinks> own_links_;           ///< of robots whose links may touch each other
   bool is_needed_ = false;

@@ -14,28 +14,29 @@
 
 namespace muro::line_of_sight {
 
-/// What stands between two points, by the scene's index: see README.md.
+/// Finds the obstacles between two points, by the scene's index: see README.md.
 class LineOfSight {
  public:
   /// Asks for scene.index and reads the meshes and heightmaps of the scene. [setup]
   void connect(Connector& c);
-  /// To be called in each step, before the first search and by one thread.
+  /// Must be called by one thread in each step, before the first search.
   void begin_step() {
     if (solids_.size() != scene_->colliders.size()) find_solids();
   }
-  /// How many obstacles the line from `a` to `b` (m, world) passes through, at most `most`: each shape of the scenery
-  /// counts, and each robot as one. The line runs 1 mm above its ends: what stands on a floor is in its way, the floor
-  /// is not. Robots `own` and `other` (numbers; -1: none) do not count. From `b` to `a` there are exactly as many.
-  /// [step, any thread]
+  /// Returns the number of obstacles that the line from `a` to `b` (m, world) passes through, at most `most`. Each
+  /// shape of the scenery counts, and each robot counts as one. The line runs 1 mm above its ends: what stands on a
+  /// floor is in its way, the floor is not. Robots `own` and `other` (numbers; -1: none) do not count. The line from
+  /// `b` to `a` gives exactly the same number. [step, any thread]
   std::uint32_t obstacles(const Vec3& a, const Vec3& b, std::int32_t own, std::int32_t other,
                           std::uint32_t most = 1) const;
   bool is_clear(const Vec3& a, const Vec3& b, std::int32_t own, std::int32_t other) const {
     return obstacles(a, b, own, other) == 0;
   }
-  /// Lets `fan` know what may be in the way of about so many `lines` from `centre` (m, world) that are no longer than
-  /// `reach` (m), robot `own` excepted. Many lines from one point take less time so. [step, any thread]
+  /// Adds to `fan` what may be in the way of about so many `lines` from `centre` (m, world) that are no longer than
+  /// `reach` (m), except robot `own`. Many lines from one point then take less time. [step, any thread]
   void look_around(const Vec3& centre, std::int32_t own, double reach, std::size_t lines, Fan& fan) const;
-  /// The number of obstacles from the centre of a fan, with which this object has looked around in this step, to `to`.
+  /// Returns the number of obstacles from the centre of a fan, on which this object called look_around in this step, to
+  /// `to`.
   std::uint32_t obstacles(const Fan& fan, const Vec3& to, std::int32_t other, std::uint32_t most = 1) const;
 
  private:
@@ -47,7 +48,7 @@ class LineOfSight {
     Heightmap map;
     double highest;  ///< m
   };
-  /// What a collider that is a mesh or heightmap is made of.
+  /// Content of a collider that is a mesh or heightmap.
   struct Solid {
     const TriangleMesh* mesh = nullptr;
     const Ground* ground = nullptr;
@@ -56,7 +57,7 @@ class LineOfSight {
   void find_solids();
   bool is_cut(const Segment& segment, std::uint32_t collider) const;
   bool is_cut_by_robot(const Segment& segment, std::uint32_t robot) const;
-  /// In a fan, numbers of colliders come before those of robots.
+  /// Returns the number of the first robot in a fan; numbers of colliders come before it.
   std::uint32_t first_robot() const { return std::uint32_t(scene_->colliders.size()); }
 
   In<SceneIndex> scene_;

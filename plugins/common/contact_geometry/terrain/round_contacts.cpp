@@ -17,7 +17,7 @@ void add_end(const Surface& surface, const Vec3& end, double radius, ContactColl
                           (end.z() - ground->height) * ground->normal.z() - radius);
     return;
   }
-  // By the slack, a foot on an edge belongs to both triangles even if rounding keeps them out of one plane.
+  // With the slack, a foot on an edge belongs to both triangles even if rounding keeps them out of one plane.
   const double slack = 2e-4 * reach;
   surface.each_triangle({end.array() - reach, end.array() + reach}, [&](const Surface::Triangle& t) {
     const double height = t.height_of(end);
