@@ -88,7 +88,7 @@ TEST(Pairs, CapsulesMeetWhereTheirAxesAreNearest) {
   expect_deepest(touch(at(capsule, {0.9, 0.7, 0.4}, on_side), upright), {0.45, 0, 0.4}, {1, 0, 0}, 0.1);  // crossed
   expect_deepest(touch(at(capsule, {0, 0, 4.8}), upright), {0, 0, 2.4}, {0, 0, 1}, 0.2);                  // end to end
   expect_deepest(touch(at(Shape::sphere(0.5), {0.6, 0, 1}), upright), {0.3, 0, 1}, {1, 0, 0}, 0.4);
-  const Manifold crossed = touch(at(capsule, {0, 0, 0}, on_side), upright);  // axes meet: either way out will do
+  const Manifold crossed = touch(at(capsule, {0, 0, 0}, on_side), upright);  // axes meet: both ways out are right
   expect_deepest(crossed, {0, 0, 0}, {crossed.points[0].normal.x() > 0 ? 1.0 : -1.0, 0, 0}, 1);
 }
 

@@ -56,7 +56,7 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   /// Starts the process, in place of the one before. It reads /dev/null and prints where we do, unless `files` says
-  /// otherwise, and has no other descriptor of ours. All signals have their default action, and none is blocked.
+  /// otherwise, and has no other descriptor of ours. All signals have their default action; no signal is blocked.
   /// Returns 0, or an error number.
   int start(const Setup& setup);
   /// Whether there is a process for which end() has not been called yet.

@@ -7,18 +7,18 @@
 
 namespace muro::contact_geometry {
 
-/// m/s^2: converts masses to loads.
+/// Acceleration (m/s^2) that converts masses to loads.
 inline constexpr double standard_gravity = 9.80665;
-/// s: a contact is made stiff for its mean load over this time, if that is more than bodies weigh.
+/// Time (s) of a mean load: a contact is made stiff for its mean over it, if that is more than bodies weigh.
 inline constexpr double load_mean_over = 0.1;
-/// Limit: a contact is made stiff for at most so many times what bodies weigh.
+/// Limit of stiffness: a contact is made stiff for at most so many times what bodies weigh.
 inline constexpr double most_weights = 100;
 
 inline namespace MURO_ISA {
 
 /// Returns the depth (m) whose spring acts. Bodies that enter each other within long steps are parted slowly, because
 /// otherwise they would be thrown; deep ones are parted faster. `full` (m): acting depth for an overlap of a tenth of a
-/// metre and more. `least` (m): acting depth at which one spring carries the whole load twice.
+/// metre and more. `least` (m): acting depth at which one spring carries twice the whole load.
 template <class S>
 MURO_INLINE S parted_depth(S depth, S full, S least) {
   constexpr double least_part = 0.04, depth_at_full_speed = 0.1;  // m

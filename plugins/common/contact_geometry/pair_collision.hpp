@@ -79,7 +79,8 @@ struct Candidates {
 /// the higher key has the contacts of the pair mirrored, so both lists agree to the bit. Lists depend neither on the
 /// order in which robots were declared nor on the number of threads. Contacts among the links of a robot
 /// (keys::self_collision) are found in phase 4, and are in its list once, like those with another robot. A contact is
-/// listed only if the contact algorithm resolves it (contact_responsibility.hpp), or if somebody else reads the list.
+/// listed only if the contact algorithm resolves it (contact_responsibility.hpp), or if another algorithm reads the
+/// list.
 class PairCollision : public Algorithm {
  public:
   void connect(Connector& c) override;

@@ -13,7 +13,7 @@ namespace muro::contact_geometry {
 
 /// Cosine of 8 degrees: normals of one patch differ by less.
 inline constexpr double same_direction = 0.99;
-/// m/s: limit for the ends of a cell about its middle. A spin below it does not release a body that rests.
+/// Speed limit (m/s) of the ends of a cell about its middle. A slower spin does not release a body that rests.
 inline constexpr double least_spin = 5e-6;
 
 inline namespace MURO_ISA {

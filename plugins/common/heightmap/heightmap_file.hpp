@@ -33,7 +33,7 @@ struct HeightmapFile {
 /// more nodes than 16384 x 16384. The file is read once while anybody has it, and again when it has changed. [setup]
 HeightmapFile load(const std::string& path);
 
-/// m: depth below the surface of a heightmap up to which bodies are pushed up.
+/// Depth (m) below the surface of a heightmap up to which bodies are pushed up.
 inline constexpr double depth_of_ground = 1000;
 
 /// Returns the bounds (m) of the surface.

@@ -82,7 +82,7 @@ class HeightmapReader {
                   " in each direction; make it smaller");
   }
 
-  /// Returns values of which black is 0 and white is 1. The upper rows are at +y.
+  /// Returns the values: black is 0 and white is 1. The upper rows are at +y.
   std::vector<float> values_of_picture(const std::vector<std::uint8_t>& bytes, Nodes& nodes) const {
     int width = 0, height = 0, channels = 0;
     const int size = int(bytes.size());

@@ -11,8 +11,7 @@ namespace muro::line_of_sight {
 
 namespace {
 
-/// m, of lines over their ends: for two devices at the height of a floor, walls on it are obstacles and the floor is
-/// not.
+/// Height (m) of lines over their ends. For two devices at the height of a floor, only walls on it are obstacles.
 constexpr double lift = 1e-3;
 
 /// Returns the same segment from `a` to `b` as from `b` to `a`, so that rounding is the same in both directions.

@@ -10,9 +10,9 @@ namespace muro::line_of_sight {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-/// m: shorter ways through a shape count as touches.
+/// Length (m) below which a way through a shape is only a touch.
 constexpr double touch = 1e-9;
-/// m: a line that is no deeper under the ground lies on it.
+/// Depth (m) under the ground down to which a line lies on it.
 constexpr double on_the_ground = 1e-6;
 
 /// The part of the endless line that is inside an open convex solid; empty if out <= in.

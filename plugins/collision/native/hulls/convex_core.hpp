@@ -81,7 +81,7 @@ struct ConvexCore {
         const double along = n.dot(u);
         const Vec3 across = n - along * u, end = centre + std::copysign(half.z(), along) * u;
         const double steep = across.norm();
-        // along the axis all points of the rim are equally far, so any of them will do
+        // along the axis all points of the rim are equally far, so this takes one of them
         return steep > 1e-9 * n.norm() ? Vec3(end + across * (half.x() / steep)) : Vec3(end + half.x() * axes.col(0));
       }
       case Kind::hull:

@@ -25,7 +25,7 @@ struct KernelShape {
   double centre[3] = {};  ///< m, in the body
   double axes[9] = {};    ///< of the shape in the body, column by column
   /// Axes of the shape that are axes of the body. Axis k of the shape is axis |along[k]| - 1 of the body, opposite if
-  /// negative. 0: it is none of them.
+  /// negative. 0: it is no axis of the body.
   int along[3] = {};
   bool is_centred = false;  ///< `centre` is 0
   /// Vertices of the hull of a mesh: x, y, z of each (m, in the body).

@@ -97,7 +97,7 @@ class PlanePoints {
     const auto upright = steep <= S(least_tilt_);
     const auto more = upright | (middle > S(0));
     down = down * (r / steep);
-    // When upright, any four points will do; those on the axes of the cylinder turn with it.
+    // Any four points suffice when upright; those on the axes of the cylinder turn with it.
     if (any(more)) down = select(upright, r * at_.axis(0), down);
     const V3<S> end = half * u, line = centre_ + down;
     lowest(line + end, deep_ - rise + low, 0, sink);

@@ -36,7 +36,7 @@ class FacetWay {
     const S upper = across_.number - column_.number - row_.number;
     const auto is_facet = all_of(any_of(by_column, by_row, by_across), upper >= S(0), upper <= S(1));
     before = now;
-    // where there is none, any will do
+    // where there is none, this takes any triangle
     now = facet_of<S>(grid, select(is_facet, column_.number, S(0)), select(is_facet, row_.number, S(0)),
                       all_of(is_facet, upper > S(0)));
     return is_facet;

@@ -85,7 +85,7 @@ struct Search {
   void triangle(const RimPatch& patch, const Vec3& a, const Vec3& b, const Vec3& c);
 };
 
-/// All segments but one, seen along that one: their half vectors across it, and their extents along it.
+/// The segments except one, seen along that one: their half vectors across it, and their extents along it.
 struct OtherSegments {
   Vec2 across[3];
   double along[3];
@@ -222,7 +222,7 @@ void Search::around_corners(const Vec3& a, const Vec3& b, const Vec2& offset, co
     Vec2 corner = offset;
     for (int k = 0; k < count; ++k) corner += (signs >> k & 1 ? 1.0 : -1.0) * edges[k];
     const double length = corner.norm();
-    // On the axis itself all directions are equally good.
+    // All directions are equally good on the axis itself.
     consider(length > 1e-12 * scale ? Vec3((corner.x() * a + corner.y() * b) * (-1 / length)) : a);
   }
 }

@@ -15,7 +15,7 @@ struct Solid {
   Pose pose;                                ///< only of a hull
   ConvexCore core;
 
-  /// Takes arguments in the world. `frame`: of the heightmap.
+  /// Makes a solid of arguments in the world. `frame`: of the heightmap.
   Solid(const TransformedShape& in_world, const Pose& frame);
   Solid(const TransformedShape& box, const CollisionGeometry& of_hull, const HullSupport& support, const Pose& at,
         const Pose& frame);

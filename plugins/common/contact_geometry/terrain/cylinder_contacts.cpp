@@ -10,7 +10,7 @@ namespace muro::terrain_contact {
 
 namespace {
 
-/// rad: a cylinder that leans less than this stands on points of its rim that turn with it.
+/// Lean (rad) of a cylinder below which it stands on points of its rim that turn with it.
 constexpr double max_lean = 1e-3;
 
 struct Cylinder {
