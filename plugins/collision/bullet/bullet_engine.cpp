@@ -20,7 +20,7 @@ std::unique_ptr<btConvexHullShape> hull_of(const mesh::Hull& hull) {
   return shape;
 }
 
-/// Without margins: shapes have their true size and sharp edges.
+/// Makes a Bullet shape without margins: it has its true size and sharp edges.
 std::unique_ptr<btCollisionShape> shape_of(const CollisionGeometry& s, ShapeData& data) {
   const Vec3& size = s.shape.size;
   const double r = size.x();

@@ -17,7 +17,7 @@ struct ShapeData {
   std::unique_ptr<btCollisionShape> shape;
 };
 
-/// Bullet's collision library (Coumans), in double precision: an algorithm for each pair of kinds, created anew for
+/// Bullet's collision library (Coumans) in double precision. An algorithm for each pair of kinds is created anew for
 /// each pair, so that no manifold persists.
 class BulletEngine final : public contact_geometry::Engine {
  public:

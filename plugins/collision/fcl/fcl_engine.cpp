@@ -64,11 +64,11 @@ fcl::Transform3d transform_of(const Pose& p) {
   return t;
 }
 
-/// Contacts that one pair may have: every triangle of a mesh has one.
+/// Most contacts that one pair may have: every triangle of a mesh has one.
 constexpr std::size_t most_contacts = 1024;
 
-/// Pairs without a solver of their own, for which FCL asks libccd: its portal refinement (Snethen, XenoCollide, 2008)
-/// gives a way out, not the shortest.
+/// Whether FCL has no solver of its own for the pair and asks libccd. Its portal refinement (Snethen, XenoCollide,
+/// 2008) gives a way out, but not the shortest.
 bool is_rough(const fcl::CollisionGeometryd& a, const fcl::CollisionGeometryd& b) {
   const auto is = [](const fcl::CollisionGeometryd& g, fcl::NODE_TYPE type) { return g.getNodeType() == type; };
   const auto round = [&](const fcl::CollisionGeometryd& g) { return is(g, fcl::GEOM_SPHERE); };
@@ -95,10 +95,10 @@ class FclNarrowPhase final : public contact_geometry::NarrowPhase {
         contacts.push_back({c.pos, -c.normal, c.penetration_depth, -1, rough});
         continue;
       }
-      // FCL exchanges a shape and a mesh, and says so here alone
+      // FCL exchanges a shape and a mesh; only this shows it
       const bool exchanged = c.o1 == geometries_[b].get();
       Vec3 normal = exchanged ? c.normal : Vec3(-c.normal);
-      // of a sphere it gives the depth with the wrong sign, and a normal without one
+      // for a sphere, FCL gives the depth with the wrong sign, and a normal without a defined sign
       if (is_sphere && normal.dot(at_a.position - c.pos) < 0) normal = -normal;
       contacts.push_back({c.pos, normal, is_sphere ? std::abs(c.penetration_depth) : c.penetration_depth,
                           std::int64_t(exchanged ? c.b1 : c.b2)});

@@ -7,8 +7,8 @@
 
 namespace muro::fcl_collision {
 
-/// The Flexible Collision Library (Pan, Chitta and Manocha, ICRA 2012): its own solvers for pairs of primitives, GJK
-/// and EPA for the others, hierarchies of boxes for meshes.
+/// The Flexible Collision Library (Pan, Chitta and Manocha, ICRA 2012). It has its own solvers for pairs of primitives,
+/// GJK and EPA for the other pairs, and hierarchies of boxes for meshes.
 class FclEngine final : public contact_geometry::Engine {
  public:
   bool takes_heightmaps_as_meshes() const override { return true; }

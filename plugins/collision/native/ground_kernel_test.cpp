@@ -11,7 +11,7 @@ namespace {
 
 using testing::Randoms;
 
-/// Eight robots of one body with one shape, on a plane.
+/// Eight robots of one body each, with the same shape, on a plane.
 struct Eight {
   static constexpr int most = 8, words = 3, stride = sizeof(Contact) / sizeof(double);
 
@@ -45,7 +45,7 @@ struct Eight {
   }
 };
 
-/// Rounding differs in one of hundreds of results where a compiler contracts a product and a sum, hence so many.
+/// Rounding differs in one of hundreds of results if a compiler contracts a product and a sum. So many are needed.
 TEST(GroundKernel, ALaneGivesTheBitsOfEachRobotAlone) {
   Randoms random(5);
   const lane::Isa best = lane::best_isa();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Hulls against FCL (Pan, Chitta, Manocha: FCL: A general purpose library for collision and proximity queries, ICRA
-// 2012) and against the separating axis theorem, on 10 000 random pairs of 0.05 to 2 m in random and in axis-parallel
+// Compares hulls with FCL (Pan, Chitta, Manocha: FCL: A general purpose library for collision and proximity queries,
+// ICRA 2012) and with the separating axis theorem, on 10 000 random pairs of 0.05 to 2 m in random and in axis-parallel
 // places.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
@@ -20,7 +20,7 @@ using namespace muro;
 using namespace muro::native;
 using namespace muro::native::testing;
 
-/// A shape with all that the pairs need of it.
+/// A shape and all data that the pairs need of it.
 struct Solid {
   mesh::Hull hull;
   std::unique_ptr<HullSupport> support;
@@ -29,7 +29,7 @@ struct Solid {
 
   bool is_hull() const { return support != nullptr; }
   void put(const Pose& pose) { object = collision_object(geometry, pose); }
-  /// The farthest extent (m) along the unit vector n, from the world's origin.
+  /// Returns the farthest extent (m) along the unit vector n, from the world's origin.
   double extent(const Vec3& n) const {
     if (!is_hull()) return native::testing::extent(object.shape, n);
     double reach = -std::numeric_limits<double>::infinity();
@@ -45,7 +45,7 @@ std::unique_ptr<Solid> primitive(const Shape& shape) {
   return solid;
 }
 
-/// Of `points` random points in a box, or on an ellipsoid.
+/// Makes the hull of `points` random points in a box, or on an ellipsoid.
 std::unique_ptr<Solid> random_hull(Randoms& random, int points) {
   const Vec3 half(random.uniform(0.05, 1), random.uniform(0.05, 1), random.uniform(0.05, 1));
   const bool round = random.below(2) == 0;
@@ -98,8 +98,8 @@ std::shared_ptr<fcl::CollisionGeometryd> geometry(const Solid& s) {
   }
 }
 
-/// The depth of FCL's deepest contact; 0 when apart. But for planes it comes from the portal refinement of libccd: a
-/// translation that separates, not the least.
+/// Returns the depth of FCL's deepest contact; 0 when apart. Except for planes it comes from the portal refinement of
+/// libccd, which gives a translation that separates, but not the least.
 double fcl_depth(const Solid& a, const Solid& b) {
   fcl::CollisionRequestd request(16, true);
   request.gjk_solver_type = fcl::GST_LIBCCD;
@@ -136,7 +136,7 @@ struct Axes {
   }
 };
 
-/// Of two polyhedra, by the separating axis theorem; negative: apart.
+/// Returns the least depth of two polyhedra by the separating axis theorem; negative: apart.
 double least_depth(const Solid& a, const Solid& b) {
   const Axes of_a(a), of_b(b);
   double least = std::numeric_limits<double>::infinity();
@@ -155,7 +155,7 @@ TEST_P(HullsWithKind, TouchWhereFclSaysSoWithTheLeastDepth) {
   const ShapeKind kind = GetParam();
   Randoms random(100 + unsigned(kind));
   const int pairs = 1700;
-  const double band = 1e-6;  // of the size: nearer to touching than this the two may disagree
+  const double band = 1e-6;  // part of the size: closer to touching, the two may disagree
   int touching = 0;
   for (int i = 0; i < pairs; ++i) {
     const bool parallel = random.below(4) == 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hulls and triangles against what is known of them otherwise.
+// Compares hulls and triangles with results that are known in other ways.
 #include "hulls/expanding_polytope.hpp"
 #include "hulls/hull_plane.hpp"
 #include "hulls/mesh_pairs.hpp"
@@ -83,7 +83,7 @@ TEST(LeastTranslation, OfTheHullsOfTwoBoxesIsThatOfTheBoxes) {
   EXPECT_GT(touching, 700);
 }
 
-/// A square of 2 `half` m of `cells` times `cells` squares of two triangles each, at height 0.
+/// Makes a square with sides of 2 `half` (m) at height 0, of `cells` times `cells` squares of two triangles each.
 mesh::Mesh floor_of(double half, int cells) {
   mesh::Mesh m;
   for (int i = 0; i <= cells; ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How many points a resting contact has, and where.
+// Number and places of the points of a resting contact.
 #include <algorithm>
 
 #include "muro/toolkit/rotations.hpp"
@@ -13,7 +13,7 @@ using namespace muro::native::testing;
 
 TransformedShape at(const Shape& s, const Vec3& p, const Quat& q = Quat::Identity()) { return transformed(s, {p, q}); }
 
-/// Every wanted point is there, once, with this depth, and no other.
+/// Expects every wanted point once, with this depth, and no other point.
 void expect_points(const TransformedShape& a, const TransformedShape& b, double depth, const Vec3& normal,
                    const std::vector<Vec3>& wanted) {
   Manifold m;
@@ -103,7 +103,7 @@ TEST(Manifold, LyingCapsuleRestsOnBothEnds) {
   const TransformedShape capsule = at(Shape::capsule(0.2, 1), {0, 0, 0.2 - deep}, on_side);
   expect_points(capsule, ground, deep, Vec3::UnitZ(), {{0, 0.5, mid}, {0, -0.5, mid}});
   expect_points(capsule, slab, deep, Vec3::UnitZ(), {{0, 0.5, mid}, {0, -0.5, mid}});
-  // Side by side with a capsule that is shifted along: the segment that both share.
+  // Side by side with a capsule that is shifted along: the contact is the segment that both share.
   expect_points(at(Shape::capsule(0.2, 1), {0, 0, 0}, on_side),
                 at(Shape::capsule(0.3, 1), {0.5 - deep, 0.4, 0}, on_side), deep, -Vec3::UnitX(),
                 {{0.2 + mid, 0.5, 0}, {0.2 + mid, -0.1, 0}});
@@ -113,7 +113,7 @@ TEST(Manifold, LyingCapsuleRestsOnBothEnds) {
 }
 
 TEST(Manifold, FourPointsOfATiltedRimPushAndTurnLikeTheWholeRim) {
-  // The sum of depths and their moments over equally spaced points do not depend on where the points are.
+  // The sums of depths and of their moments over equally spaced points do not depend on where the points are.
   const double tilt = 1e-3, r = 0.4;
   for (const double yaw : {0.0, 0.2, 0.77}) {
     const TransformedShape cylinder = at(Shape::cylinder(r, 1), {0, 0, 0.5 - deep},

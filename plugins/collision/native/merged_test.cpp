@@ -31,7 +31,7 @@ void add_hills(test::Scene& scene, const ScratchFolder& folder, double spacing, 
   scene.world().add_scenery("hills", {}, std::span(&ground, 1));
 }
 
-/// A box on two wheels and a ball, or with `mesh` a hull on them.
+/// A box on two wheels and a ball; with `mesh` a hull in place of the box.
 RobotTree cart(const std::string& mesh = "") {
   return test::tree_of([&](RobotBuilder& b) {
     const Shape chassis[] = {mesh.empty() ? Shape::box({0.4, 0.3, 0.1}) : test::mesh_shape(b, mesh)},
@@ -63,7 +63,7 @@ void add_ground_of(test::Scene& scene, const ScratchFolder& folder, std::string_
   if (ground == "rocks") add_hills(scene, folder, 0.2, 0.05);
 }
 
-/// Those of `poses` whose bit is set.
+/// Carts at those `poses` whose bit is set in `which`.
 struct Carts : CollisionScene {
   std::vector<const RobotView*> all;
 
@@ -77,7 +77,7 @@ struct Carts : CollisionScene {
   }
 };
 
-/// Two balls on one link, in the corner of one object of two planes; maybe with a post in the box around both.
+/// Two balls on one link, in the corner of one object of two planes, optionally with a post in the box around both.
 struct Corner : CollisionScene {
   const RobotView* robot = nullptr;
 

@@ -15,7 +15,7 @@ namespace muro::native {
 
 namespace {
 
-/// A signature that no set of points has.
+/// Value of a signature that no set of points has.
 constexpr double unknown = -1;
 constexpr int batch_size = 8;
 
@@ -24,7 +24,7 @@ static_assert(offsetof(Contact, normal) == offsetof(Contact, point) + normal_num
 static_assert(offsetof(Contact, depth) == offsetof(Contact, point) + depth_number * sizeof(double));
 static_assert(sizeof(Contact) % sizeof(double) == 0);
 
-/// How many points of the next slot touch.
+/// Returns the number of points of the next slot that touch.
 int points_of(const KernelShape& shape, const double* signature, SignatureCursor& cursor) {
   cursor.begin(shape);
   int points = 0;
@@ -43,8 +43,8 @@ int points_of(const KernelShape& shape, const double* signature, SignatureCursor
 struct NativeCollision::Batch {
   GroundBatch ground;
   std::uint32_t robots[batch_size];
-  Contact* found[batch_size];  ///< what the kernel writes of each
-  unsigned merged = 0;         ///< a bit for each that touches more than the ground
+  Contact* found[batch_size];  ///< contacts that the kernel writes for each robot
+  unsigned merged = 0;         ///< one bit for each robot that touches more than the ground
 };
 
 void NativeCollision::connect(Connector& c) {
@@ -66,7 +66,7 @@ void NativeCollision::start() {
   allocate_clearances();
 }
 
-/// Of all colliders; those of robots know their bodies' poses.
+/// Adds the shapes of all colliders. Shapes of robots also have the locations of their bodies' poses.
 void NativeCollision::add_kernel_shapes() {
   shapes_.clear();
   for (const Collider& c : index_->colliders) {
@@ -127,7 +127,7 @@ void NativeCollision::group_robots() {
   }
 }
 
-/// And capacity of the lists for all contacts that kernels may write.
+/// Allocates the signatures, and reserves room in the lists for all contacts that kernels may write.
 void NativeCollision::allocate_signatures() {
   std::size_t all = 0;
   most_ground_points_ = 0;
@@ -163,7 +163,7 @@ void NativeCollision::allocate_clearances() {
   for (std::uint32_t r = 0; r < robots_.size(); next += numbers_of(r++)) ground_robots_[r].clearances = next;
 }
 
-/// In words.
+/// Returns the size in words.
 std::size_t NativeCollision::signature_size(std::uint32_t robot) const {
   const RobotColliders& own = index_->robots[robot];
   return std::size_t(words_of(shapes_.data() + own.first, int(own.count), int(grounds_.size())));
@@ -190,7 +190,7 @@ double NativeCollision::distance_bound(const TransformedCollider& a, const Trans
   return separation_bound(a.shape, b.shape);
 }
 
-/// `is_left`: by the kernel.
+/// `is_left`: the kernel could not find the points.
 void NativeCollision::collide_with_terrain(const TransformedCollider& a, const Terrain& terrain,
                                            std::vector<ContactPoint>& points, bool is_left) const {
   if (a.shape.kind != ShapeKind::mesh) return collide_terrain(a.shape, terrain, points, is_left);
@@ -210,7 +210,7 @@ void NativeCollision::collide_meshes(const TransformedCollider& a, const Transfo
 }
 
 void NativeCollision::list_contacts(Range robots) {
-  thread_local std::vector<Contact> scratch;  // for lists that have more than the kernel finds
+  thread_local std::vector<Contact> scratch;  // for lists with more than the kernel finds
   if (scratch.size() < batch_size * most_ground_points_) scratch.resize(batch_size * most_ground_points_);
   constexpr std::size_t near_cache = 256;  // robots whose data a near cache holds
   const bool is_large_team = robots_.size() > near_cache;
@@ -230,7 +230,7 @@ void NativeCollision::list_contacts(Range robots) {
       }
       const int i = ground.used++;
       batch.robots[i] = r;
-      // the kernel goes through the grounds of an object one by one, lists through the shapes of a link
+      // the kernel finishes one ground of an object before the next; in lists the order is by shapes of a link first
       const bool is_merged = has_grounds_of_one_object_ || !touches_only_ground(r);
       batch.merged |= unsigned(is_merged) << i;
       ground.poses[i] = ground_robots_[r].poses;
@@ -257,8 +257,8 @@ bool NativeCollision::takes_kernel(std::uint32_t robot) const {
   return !grounds_.empty() && !robots_have_planes_ && lists_scenery(robots_[robot]);
 }
 
-/// Whether the robot touches nothing but planes and heightmaps of the scenery, as far as bounds and its pairs with
-/// robots tell.
+/// Whether the robot touches nothing but planes and heightmaps of the scenery, according to bounds and its pairs with
+/// robots.
 bool NativeCollision::touches_only_ground(std::uint32_t robot) {
   const Aabb& bounds = index_->robots[robot].bounds;
   for (const std::uint32_t k : overlaps_.of(robot, *index_).scenery)
@@ -294,7 +294,7 @@ void NativeCollision::each_slot(std::uint32_t robot, Visit visit) const {
   }
 }
 
-/// Makes the list of a robot from its signature: points, depths, and normals on heightmaps are in their places already.
+/// Makes the list of a robot from its signature. Points, depths and the normals on heightmaps are already in place.
 void NativeCollision::list_ground_contacts(std::uint32_t robot) const {
   const ListOut<Contact>& list = robots_[robot].list;
   Contact* next = (*list).data();
@@ -312,8 +312,8 @@ void NativeCollision::list_ground_contacts(std::uint32_t robot) const {
   });
 }
 
-/// Makes the list of a robot from what the kernel has found, but for slots with its bit in `left`, and from the rest
-/// pair by pair. `found`: what the kernel has written.
+/// Makes the list of a robot from `found`, the contacts that the kernel has written, except for slots with its bit in
+/// `left`. Those slots and all other pairs are collided pair by pair.
 void NativeCollision::list_merged(std::uint32_t robot, Contact* found, const std::uint8_t* left, unsigned bit) {
   Candidates& candidates = this->candidates(robot);
   const bool is_in_list = found == (*robots_[robot].list).data();
@@ -337,7 +337,7 @@ void NativeCollision::list_merged(std::uint32_t robot, Contact* found, const std
   std::fill_n(ground_robots_[robot].signature, ground_robots_[robot].words, unknown);
 }
 
-/// Of a slot that the kernel has left.
+/// Collides a slot whose points the kernel could not find.
 void NativeCollision::collide_left(const TransformedCollider& own, const TransformedCollider& ground,
                                    Candidates& candidates) {
   if (!own.bounds.overlaps(ground.bounds)) return;
@@ -349,7 +349,7 @@ void NativeCollision::collide_left(const TransformedCollider& own, const Transfo
   add_found(own.number, ground.number, candidates.points, candidates);
 }
 
-/// Contacts with scenery that is no ground.
+/// Adds contacts with scenery that is neither a plane nor a heightmap.
 void NativeCollision::add_other_scenery(std::uint32_t robot, Candidates& candidates) {
   const auto is_ground = [this](const TransformedCollider* c) {
     return c->shape.kind == ShapeKind::plane || terrains_.of(c->number) != nullptr;

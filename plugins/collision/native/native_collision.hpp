@@ -10,19 +10,19 @@
 
 namespace muro::native {
 
-/// Collision detection of primitive shapes, meshes and heightmaps with a narrow phase of its own. Contacts of robots
-/// with planes and heightmaps of the scenery are found by a SIMD kernel, for eight robots of a group at once; what else
-/// they touch, and what the kernel cannot tell, pair by pair. Both give the same bits where both could be used.
+/// Collision detection of primitive shapes, meshes and heightmaps with its own narrow phase. A SIMD kernel finds the
+/// contacts of robots with planes and heightmaps of the scenery, for eight robots of a group at once. Other contacts,
+/// and those that the kernel cannot find, are found pair by pair. Both ways give the same bits where both can be used.
 class NativeCollision final : public PairCollision {
  public:
   void connect(Connector& c) override;
   void start() override;
 
  private:
-  /// What the ground kernel needs of a robot.
+  /// Data of a robot for the ground kernel.
   struct GroundRobot {
     RobotPoses poses;              ///< of its bodies with shapes
-    double* signature = nullptr;   ///< which points of its list's contacts touch; see GroundBatch
+    double* signature = nullptr;   ///< shows which points touch; see GroundBatch
     std::size_t words = 0;         ///< of the signature
     double* clearances = nullptr;  ///< see GroundBatch
   };
@@ -59,13 +59,13 @@ class NativeCollision final : public PairCollision {
   MeshPairs meshes_;
   Terrains terrains_;
   std::vector<GroundRobot> ground_robots_;                    ///< by robot number
-  std::vector<std::uint32_t> ground_colliders_;               ///< planes and heightmaps of the scenery
-  bool has_grounds_of_one_object_ = false;                    ///< several of some object
-  std::vector<Ground> grounds_;                               ///< as these
+  std::vector<std::uint32_t> ground_colliders_;               ///< planes and heightmaps of the scenery, as indices
+  bool has_grounds_of_one_object_ = false;                    ///< some object has several grounds
+  std::vector<Ground> grounds_;                               ///< in the order of ground_colliders_
   std::vector<RobotGroup<std::vector<KernelShape>>> groups_;  ///< of robots that have a list
   std::vector<KernelShape> shapes_;                           ///< by collider
   std::vector<double> signatures_, clearances_;
-  std::size_t most_ground_points_ = 0;  ///< that a kernel may find for a robot
+  std::size_t most_ground_points_ = 0;  ///< most points that a kernel may find for a robot
 };
 
 }  // namespace muro::native

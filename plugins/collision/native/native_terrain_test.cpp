@@ -44,7 +44,7 @@ struct OnTerrain : test::Scene {
     set_threads(threads);
     build();
   }
-  /// J
+  /// Returns the energy (J).
   double energy(const RobotView& r) {
     const Twist& t = twist(r);
     return 0.5 * t.linear.squaredNorm() + 0.05 * t.angular.squaredNorm() + g * pose(r).position.z();

@@ -204,7 +204,7 @@ TEST(CollisionNative, AFlatMeshCollidesAsItIsAndAsAPlateWithPlanes) {
   EXPECT_EQ(of_the_sheet, 4);
 }
 
-/// Robots of hulls and of primitives in a heap, on the ground.
+/// Robots of hulls and of primitives in a heap on the ground.
 struct Heap : CollisionScene {
   std::vector<const RobotView*> all;
   std::vector<Pose> places;
@@ -246,7 +246,7 @@ TEST(CollisionNative, HullsInAHeapHaveEqualContactsInAnyOrderAndOnAllThreads) {
   EXPECT_GT(of_robots, 50u);
 }
 
-/// Two robots without gravity, each of a box and a capsule beside it.
+/// Two robots without gravity, each a box with a capsule beside it.
 struct Dumbbells : CollisionScene {
   const RobotView *a, *b;
 
@@ -273,7 +273,7 @@ TEST(CollisionNative, RobotsThatWereApartAreSeenToTouchAtOnceHoweverTheyMove) {
   int touching = 0, changes = 0;
   double phase = 0;
   for (int i = 0; i < 400; ++i) {
-    // fast, slow, slower and resting for some steps each
+    // fast, slow, slower and at rest, for some steps each
     const double speed = i / 40 % 4 == 3 ? 0 : 0.4 * std::pow(0.1, i / 40 % 4);
     phase += speed;
     at_b.position.x() = 0.55 + 0.3 * std::sin(phase);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shape pairs against FCL (Pan, Chitta, Manocha: FCL: A general purpose library for collision and proximity
+// Compares the shape pairs with FCL (Pan, Chitta, Manocha: FCL: A general purpose library for collision and proximity
 // queries, ICRA 2012), on random shapes of 0.05 to 2 m in random and in axis-parallel places.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
@@ -33,8 +33,8 @@ std::shared_ptr<fcl::CollisionGeometryd> geometry(const TransformedShape& s) {
 
 fcl::CollisionObjectd object(const TransformedShape& s) { return {geometry(s), s.axes, s.centre}; }
 
-/// The depth of FCL's deepest contact; 0 when apart. Between a cylinder or capsule and a box, cylinder or capsule it
-/// comes from the portal refinement of libccd: a translation that separates, but not the least.
+/// Returns the depth of FCL's deepest contact; 0 when apart. Between a cylinder or capsule and a box, cylinder or
+/// capsule it comes from the portal refinement of libccd, which gives a translation that separates, but not the least.
 double fcl_depth(const TransformedShape& a, const TransformedShape& b) {
   fcl::CollisionRequestd request(16, true);
   request.gjk_tolerance = 1e-10;
@@ -51,7 +51,7 @@ struct Pair {
   TransformedShape a, b;
 };
 
-/// About half of them overlap; a quarter stands parallel to the axes of the world.
+/// Makes a random pair. About half of them overlap; a quarter is parallel to the axes of the world.
 Pair random_pair(Randoms& random, ShapeKind first, ShapeKind second) {
   const bool parallel = random.below(4) == 0;
   const auto turn = [&] { return parallel ? random.right_angles() : random.rotation(); };
@@ -71,7 +71,7 @@ TEST_P(PairsOfKinds, TouchWhereFclSaysSoWithTheLeastDepth) {
   const auto [first, second] = GetParam();
   Randoms random(unsigned(first) * 8 + unsigned(second));
   const int pairs = 800;
-  const double band = 1e-6;  // of the size: nearer to touching than this the two may disagree
+  const double band = 1e-6;  // part of the size: closer to touching, the two may disagree
   int touching = 0, as_deep_as_fcl = 0;
   for (int i = 0; i < pairs; ++i) {
     const auto [a, b] = random_pair(random, first, second);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Depth, normal and place of the deepest point, against closed forms and geometry.
+// Depth, normal and place of the deepest point, compared with closed forms and geometry.
 #include "muro/toolkit/rotations.hpp"
 #include "pairs_testing.hpp"
 
@@ -88,12 +88,12 @@ TEST(Pairs, CapsulesMeetWhereTheirAxesAreNearest) {
   expect_deepest(touch(at(capsule, {0.9, 0.7, 0.4}, on_side), upright), {0.45, 0, 0.4}, {1, 0, 0}, 0.1);  // crossed
   expect_deepest(touch(at(capsule, {0, 0, 4.8}), upright), {0, 0, 2.4}, {0, 0, 1}, 0.2);                  // end to end
   expect_deepest(touch(at(Shape::sphere(0.5), {0.6, 0, 1}), upright), {0.3, 0, 1}, {1, 0, 0}, 0.4);
-  const Manifold crossed = touch(at(capsule, {0, 0, 0}, on_side), upright);  // axes meet: either way out will do
+  const Manifold crossed = touch(at(capsule, {0, 0, 0}, on_side), upright);  // axes meet: both ways out are right
   expect_deepest(crossed, {0, 0, 0}, {crossed.points[0].normal.x() > 0 ? 1.0 : -1.0, 0, 0}, 1);
 }
 
 TEST(Pairs, BoxEdgesThatCrossGiveTheirCommonPerpendicular) {
-  // Both stand on an edge: one's ridge runs along x, the other's valley-side edge along y.
+  // Both boxes stand on an edge: the ridge of one runs along x, the lowest edge of the other along y.
   const double ridge = std::sqrt(2.0) / 2;
   const TransformedShape lower = at(Shape::box({4, 1, 1}), {0, 0, 0}, from_rpy(M_PI / 4, 0, 0));
   const TransformedShape upper = at(Shape::box({1, 4, 1}), {0.2, -0.3, 2 * ridge - 0.05}, from_rpy(0, M_PI / 4, 0));

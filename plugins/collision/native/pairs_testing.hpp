@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests of the shape pairs share: random shapes, and a check of a result that uses nothing of the
-// code under test but the shapes.
+// Helpers of the tests of the shape pairs: random shapes, and a check of a result that uses nothing of the code under
+// test but the shapes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace muro::native::testing {
 
-/// The farthest extent (m) of the shape along the unit vector n, from the world's origin.
+/// Returns the farthest extent (m) of the shape along the unit vector n, from the world's origin.
 inline double extent(const TransformedShape& s, const Vec3& n) {
   const Vec3 c = s.axes.transpose() * n;
   double reach = s.radius();
@@ -22,7 +22,7 @@ inline double extent(const TransformedShape& s, const Vec3& n) {
   return s.centre.dot(n) + reach;
 }
 
-/// How far `a` must go along n to be clear of `b`.
+/// Returns the distance (m) that `a` must move along n to be clear of `b`.
 inline double depth_along(const TransformedShape& a, const TransformedShape& b, const Vec3& n) {
   return extent(b, n) + extent(a, -n);
 }
@@ -45,8 +45,8 @@ inline const std::vector<Vec3>& directions(int count) {
   return all;
 }
 
-/// The least depth over many directions, the best few improved by a local search: never below the
-/// true least depth, and hardly above.
+/// Returns the least depth over many directions; a local search improves the best few. It is never below the true least
+/// depth, and hardly above it.
 inline double sampled_depth(const TransformedShape& a, const TransformedShape& b, int count = 600, int starts = 6) {
   std::vector<std::pair<double, Vec3>> tried;
   for (const Vec3& n : directions(count)) tried.push_back({depth_along(a, b, n), n});
@@ -82,7 +82,7 @@ inline const ContactPoint* deepest(const Manifold& m) {
   return best;
 }
 
-/// How far (m) the point lies outside the shape; 0 inside.
+/// Returns how far (m) the point lies outside the shape; 0 inside.
 inline double outside(const TransformedShape& s, const Vec3& point) {
   const Vec3 p = s.axes.transpose() * (point - s.centre);
   if (s.kind == ShapeKind::sphere) return std::max(0.0, p.norm() - s.radius());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shapes on heightmaps against FCL (Pan, Chitta, Manocha: FCL: A general purpose library for collision and proximity
-// queries, ICRA 2012), which tells whether a shape touches the triangles: random shapes of 0.05 to 2 m are lowered
-// until they do.
+// Compares shapes on heightmaps with FCL (Pan, Chitta, Manocha: FCL: A general purpose library for collision and
+// proximity queries, ICRA 2012), which finds whether a shape touches the triangles. Random shapes of 0.05 to 2 m are
+// lowered until they do.
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
@@ -18,7 +18,7 @@ using namespace muro;
 using namespace muro::native;
 using namespace muro::native::testing;
 
-/// FCL's view of a heightmap at the world's origin and of a shape over it.
+/// A heightmap at the world's origin, and a shape over it, as objects of FCL.
 class Lowered {
  public:
   explicit Lowered(const native::testing::Ground& ground) : mesh_(std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>()) {
@@ -36,7 +36,7 @@ class Lowered {
     fcl::collide(&ground, &solid, request, result);
     return result.isCollision();
   }
-  /// Moves a shape that is above the ground down to where it just does not touch.
+  /// Lowers a shape that is above the ground to where it just does not touch.
   void lower(TransformedShape& s) const {
     double free = s.centre.z(), touching = free;
     while (!touches(s)) free = s.centre.z(), s.centre.z() -= 0.3 * s.half.minCoeff(), touching = s.centre.z();

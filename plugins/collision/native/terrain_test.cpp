@@ -20,7 +20,7 @@ std::string text_of(const std::vector<ContactPoint>& points) {
   return out.str();
 }
 
-/// A plane and a heightmap that is that plane give the same points to random shapes, whatever the grid.
+/// Expects a plane and a heightmap of that plane to give the same points for random shapes, whatever the grid.
 void expect_plane(const testing::Ground& ground, const Pose& plane_pose, double bound, unsigned seed) {
   const TransformedShape plane = transformed(Shape::plane(), plane_pose);
   Randoms random(seed);
@@ -67,8 +67,8 @@ TEST(Terrain, ThatIsAnInclinedPlaneByItsHeightsGivesThePointsOfThatPlane) {
                3);
 }
 
-/// As a shape goes on, what lifts it changes no faster than the ground rises, but for `jump` (m): there are neither
-/// gaps between triangles nor edges that are none.
+/// Expects that the lift of a moving shape changes no faster than the ground rises, except for `jump` (m): there are no
+/// gaps between triangles, and no edges where there are none.
 void expect_steady(const testing::Ground& ground, const Shape& shape, double steepest, double jump, unsigned seed) {
   Randoms random(seed);
   constexpr double step = 2e-4;  // m
@@ -165,7 +165,7 @@ TEST(Terrain, LiftsWheelsByWhatFewOperationsTellAsByAllThatIsNear) {
   EXPECT_GT(edges, 1000) << "edges between the rims are among them";
 }
 
-/// Eight robots of one body with one shape, on a heightmap.
+/// Eight robots of one body each, with the same shape, on a heightmap.
 struct Eight {
   static constexpr int most = 8, words = 1, stride = sizeof(Contact) / sizeof(double);
   KernelShape shape;
@@ -176,7 +176,7 @@ struct Eight {
   std::uint8_t left[1] = {};  ///< by slot
   double clearances[8][numbers_of_clearance] = {};
 
-  /// Of the first contacts of a robot.
+  /// Returns the numbers of the first contacts of a robot.
   std::vector<double> numbers(int robot, std::size_t count) const {
     return {contacts[robot].data(), contacts[robot].data() + count * stride};
   }

@@ -10,13 +10,13 @@
 
 namespace muro::native::testing {
 
-/// A heightmap with the heights of a function, at a pose.
+/// A heightmap at a pose, with heights given by a function.
 struct Ground {
   std::vector<float> values;
   Heightmap map;
   std::unique_ptr<Terrain> terrain;
 
-  /// `size`: m, along x and y.
+  /// `size_x`, `size_y`: m.
   Ground(double size_x, double size_y, std::uint32_t columns, std::uint32_t rows,
          const std::function<double(double, double)>& height, const Pose& pose = {}, double radius = 3) {
     map = {{}, columns, rows, {size_x, size_y, 1}};
@@ -34,7 +34,7 @@ struct Ground {
     collide_terrain(shape, *terrain, points);
     return points;
   }
-  /// The farthest (m) that a contact asks the shape to be lifted.
+  /// Returns the farthest (m) that a contact requires the shape to be lifted.
   double lift(const TransformedShape& shape) const {
     double most = 0;
     for (const ContactPoint& p : contacts(shape)) most = std::max(most, p.depth / p.normal.z());
@@ -47,7 +47,7 @@ inline Ground hills(std::uint32_t nodes = 25) {
   return Ground(12, 12, nodes, nodes,
                 [](double x, double y) { return 0.4 * std::sin(0.7 * x + 0.3) * std::cos(0.6 * y); });
 }
-/// Rocks: every node has a height of its own.
+/// Rocks: each node has its own random height.
 inline Ground rocks(unsigned seed) {
   Randoms random(seed);
   return Ground(12, 12, 25, 25, [&](double, double) { return random.uniform(0, 0.3); });

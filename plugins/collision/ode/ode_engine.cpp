@@ -42,7 +42,7 @@ void plan_mesh(const mesh::Mesh& surface, GeomPlan& plan) {
   plan.mesh = dGeomTriMeshDataCreate();
   dGeomTriMeshDataBuildDouble(plan.mesh, plan.vertices.data(), 3 * sizeof(dReal), int(surface.vertices.size()),
                               plan.indices.data(), int(plan.indices.size()), 3 * sizeof(dTriIndex));
-  dGeomTriMeshDataPreprocess2(plan.mesh, 1U << dTRIDATAPREPROCESS_BUILD_FACE_ANGLES, nullptr);  // asked for by hulls
+  dGeomTriMeshDataPreprocess2(plan.mesh, 1U << dTRIDATAPREPROCESS_BUILD_FACE_ANGLES, nullptr);  // needed by hulls
 }
 
 dGeomID polytope_of(const GeomPlan& plan) {
@@ -63,8 +63,8 @@ struct GeomDeleter {
 };
 using Geom = std::unique_ptr<dxGeom, GeomDeleter>;
 
-/// Pairs for which ODE asks libccd: its portal refinement (Snethen, XenoCollide, 2008) gives a way out, not the
-/// shortest. And capsule with box, where a capsule that overlaps deeply gets a wrong normal.
+/// Whether ODE's result for a pair is rough. Some pairs go to libccd, whose portal refinement (Snethen, XenoCollide,
+/// 2008) gives a way out, not the shortest. With a box, a capsule that overlaps deeply gets a wrong normal.
 bool is_rough(int a, int b) {
   const auto round = [](int kind) { return kind == dCylinderClass || kind == dCapsuleClass; };
   if (a == dPlaneClass || b == dPlaneClass || a == dSphereClass || b == dSphereClass)
@@ -94,7 +94,7 @@ class OdeNarrowPhase final : public contact_geometry::NarrowPhase {
     set_pose(first, at_a, *plans_[a]);
     set_pose(second, at_b, *plans_[b]);
     const int count = dCollide(first, second, int(contacts_.size()), contacts_.data(), sizeof contacts_[0]);
-    // of a polytope and a mesh ODE does not tell the triangle: its number is one of this query
+    // for a polytope and a mesh ODE does not name the triangle: its number is valid in this query only
     const bool names_triangles = plans_[b]->mesh && dGeomGetClass(first) != dConvexClass;
     const bool rough = is_rough(dGeomGetClass(first), dGeomGetClass(second));
     for (int i = 0; i < count; ++i) {
@@ -123,14 +123,15 @@ class OdeNarrowPhase final : public contact_geometry::NarrowPhase {
   }
 
   ShapeKind kind_of(std::uint32_t geometry) const { return plans_[geometry]->geometry->shape.kind; }
-  /// With `as_polytope` a box is one: ODE's collider of cylinder and box misses one in seven deep overlaps.
+  /// Returns a geom. With `as_polytope` a box is a polytope: ODE's collider of cylinder and box misses one in seven
+  /// deep overlaps.
   dxGeom* geom(std::size_t side, std::uint32_t geometry, bool as_polytope) const {
     const Side& s = sides_[side];
     return as_polytope && s.polytopes[geometry] ? s.polytopes[geometry].get() : s.geoms[geometry].get();
   }
 
   struct Side {
-    std::vector<Geom> geoms, polytopes;  ///< by number of the geometry; not all have the second
+    std::vector<Geom> geoms, polytopes;  ///< by number of the geometry; not all have a polytope
   };
   const std::vector<std::unique_ptr<GeomPlan>>& plans_;
   ode::MessageLog& messages_;

@@ -7,12 +7,12 @@
 
 namespace muro::ode_collision {
 
-/// The data of a geom; its arrays keep their addresses, for geoms point to them.
+/// Data of a geom. Its arrays keep their addresses, because geoms point to them.
 struct GeomPlan {
   const contact_geometry::CollisionGeometry* geometry = nullptr;
-  Vec3 middle = Vec3::Zero();         ///< of a hull: its polytope is about this point, for ODE wants the origin inside
+  Vec3 middle = Vec3::Zero();         ///< of a hull: origin of its polytope, because ODE needs the origin inside
   std::vector<dReal> planes, points;  ///< of a hull or box
-  std::vector<unsigned> polygons;     ///< of the same: count, corners, count, ...
+  std::vector<unsigned> polygons;     ///< of a hull or box: count, corners, count, ...
   std::vector<dReal> vertices;        ///< of a mesh
   std::vector<dTriIndex> indices;     ///< of a mesh
   dTriMeshDataID mesh = nullptr;

@@ -5,7 +5,7 @@
 
 namespace muro {
 
-/// Sanitizers have more address space than any bound.
+/// Whether a sanitizer is active. Sanitizers have more address space than any bound.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool is_sanitized = true;
 #elif defined(__has_feature)
@@ -18,10 +18,11 @@ inline constexpr bool is_sanitized = false;
 inline constexpr bool is_sanitized = false;
 #endif
 
-/// Bytes that this process has now. May be called in signal handlers.
+/// Returns the bytes of address space that this process has now. May be called in signal handlers.
 std::uint64_t own_address_space();
 
-/// The most that this process may have from now on, bytes; the system may allow less. Without effect with a sanitizer.
+/// Limits the address space of this process from now on, in bytes; the system may allow less. No effect with a
+/// sanitizer.
 void bound_address_space(std::uint64_t bytes);
 
 }  // namespace muro

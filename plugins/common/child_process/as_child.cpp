@@ -20,28 +20,28 @@ pid_t parent = 0;
 struct stat socket_at_start {};
 std::atomic<bool> is_watched = false;
 std::atomic<CrashHandler> crash_handler = nullptr;
-alignas(64) char crash_stack[64 * 1024];  // that of a thread that has used up its own is of no use
+alignas(64) char crash_stack[64 * 1024];  // a thread that has used up its own stack cannot use that
 
 [[noreturn]] void end_group() {
   kill(-getpid(), SIGKILL);
   _exit(0);
 }
 
-/// The socket fails: the parent has ended, or there is no such socket any more.
+/// Ends the process when the socket fails: the parent has ended, or the socket is no longer there.
 [[noreturn]] void end_without_socket() {
   if (!has_socket()) _exit(exit_without_socket);
   end_group();
 }
 
-/// The thread has a table of descriptors of its own, so that the socket stays open there whatever others close. Where
-/// the system has no such thing, it looks whose child this is.
+/// Watches the parent. The thread has its own table of descriptors, so that the socket stays open there whatever others
+/// close. If the system does not support that, the thread checks whose child this process is.
 void* watch_parent(void*) {
-  constexpr int look = 500;  // ms; also for a socket of which a fork of the parent has a copy
+  constexpr int look = 500;  // ms; also needed when a fork of the parent has a copy of the socket
   const bool has_own_table = close_range(child_socket + 1, ~0u, CLOSE_RANGE_UNSHARE) == 0;
   if (has_own_table) close_range(0, child_socket - 1, 0);
   is_watched = true;
   is_watched.notify_all();
-  pollfd other_side{has_own_table ? child_socket : -1, 0, 0};  // its end is always told
+  pollfd other_side{has_own_table ? child_socket : -1, 0, 0};  // poll always reports its end
   while (poll(&other_side, 1, look) <= 0 && getppid() == parent) continue;
   end_group();
 }
@@ -65,7 +65,7 @@ bool begin() {
 bool end_with_parent() {
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
-  pthread_attr_setstacksize(&attributes, 64 * 1024);  // it may count as memory of what runs here
+  pthread_attr_setstacksize(&attributes, 64 * 1024);  // it may count as memory of the program
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);  // signals are for the other threads

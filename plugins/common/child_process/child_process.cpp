@@ -20,7 +20,7 @@ namespace muro {
 
 namespace {
 
-/// From the end of the socket of a process that dies to its own; mostly some microseconds.
+/// Longest time from the end of the socket of a process that dies to its own end; usually some microseconds.
 constexpr std::chrono::milliseconds patience_for_the_dying{100};
 
 }  // namespace
@@ -53,8 +53,9 @@ int ChildProcess::start(const Setup& setup) {
 
 ChildProcess::operator bool() const { return pid_ != 0 && owner_ == getpid(); }
 
-/// poll() of its descriptor, the first one, and of others. Where the system has none of processes (valgrind, Linux
-/// before 5.3), it asks every 2 ms; the process first, so that what it has sent before its end is there then.
+/// Calls poll() for the descriptor of the process, which is the first one, and others. If the system has no descriptors
+/// of processes (valgrind, Linux before 5.3), it polls every 2 ms. It checks the process first, so that what it has
+/// sent before its end has arrived by then.
 int ChildProcess::poll_with_process(std::span<pollfd> descriptors, int milliseconds) const {
   if (process_) return poll(descriptors.data(), descriptors.size(), milliseconds);
   const Clock::time_point until = Clock::now() + std::chrono::milliseconds(milliseconds);
@@ -84,7 +85,7 @@ void ChildProcess::signal(int number) {
   if (process_)
     pidfd_send_signal(process_.get(), number, nullptr, 0);
   else if (*this)
-    kill(pid_, number);  // until it is waited for, its number is that of no other process
+    kill(pid_, number);  // until it is waited for, no other process has its number
 }
 
 ChildProcess::End ChildProcess::end(std::chrono::milliseconds patience) {
@@ -106,7 +107,7 @@ ChildProcess::End ChildProcess::end(std::chrono::milliseconds patience) {
   return how;
 }
 
-/// The process stands before its socket: what it has sent before its end is there then.
+/// Checks the process before its socket, so that what it has sent before its end has arrived by then.
 ChildProcess::Transfer ChildProcess::wait_for(short event, Clock::time_point until) const {
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();

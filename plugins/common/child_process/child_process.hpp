@@ -14,39 +14,39 @@
 
 namespace muro {
 
-/// The number of its socket in every child process.
+/// Number of the socket's descriptor in every child process.
 inline constexpr int child_socket = 3;
 
-/// A program that runs beside this one, with a socket to it, and all processes that it starts: they are of one process
-/// group, and end with this. After a fork they are those of the process that has started them, and no matter of the
-/// other one.
+/// A program that runs beside this one, with a socket to it, and all processes that it starts. They are one process
+/// group and end with this object. After a fork they belong to the process that has started them, and the other process
+/// leaves them alone.
 class ChildProcess {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr Clock::time_point no_deadline = Clock::time_point::max();
 
-  /// A descriptor of ours, which stays ours, and its number in the child.
+  /// A descriptor of this process, which stays open here, and its number in the child.
   struct File {
     int ours = -1, number = -1;
   };
   struct Setup {
     std::string program;                     ///< a path
-    std::vector<std::string> arguments{};    ///< behind its name
-    std::vector<File> files{};               ///< no two of one number, and none of that of its socket
-    std::vector<std::string> environment{};  ///< "NAME=value", in place of those of ours
+    std::vector<std::string> arguments{};    ///< after its name
+    std::vector<File> files{};               ///< different numbers, none of them that of the socket
+    std::vector<std::string> environment{};  ///< "NAME=value"; replaces our variables of that name
   };
-  /// How it has ended.
+  /// The way in which a process has ended.
   struct End {
-    int signal = 0;         ///< 0: by itself
+    int signal = 0;         ///< 0: ended on its own
     int exit_code = -1;     ///< -1: unknown
-    bool was_ours = false;  ///< it still ran, and was killed by this
+    bool was_ours = false;  ///< it still ran, and this object killed it
 
-    /// By a signal that others send, and that no mistake of the process itself brings about: SIGKILL, SIGTERM, ...
+    /// Whether the signal is one that others send and no error of the process causes: SIGKILL, SIGTERM, ...
     bool may_be_from_outside() const;
   };
   enum class Transfer {
     whole,
-    broken,  ///< it has ended, or closed its socket
+    broken,  ///< the process has ended, or closed its socket
     late,
   };
 
@@ -55,23 +55,24 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Starts it, in place of the one before. It reads /dev/null and prints where we do, unless `files` says otherwise,
-  /// and has no other descriptor of ours; all signals do what they do by default, and none is blocked. Returns 0, or an
-  /// error number.
+  /// Starts the process, in place of the one before. It reads /dev/null and prints where we do, unless `files` says
+  /// otherwise, and has no other descriptor of ours. All signals have their default action; no signal is blocked.
+  /// Returns 0, or an error number.
   int start(const Setup& setup);
-  /// Whether end() has not been called for it yet.
+  /// Whether there is a process for which end() has not been called yet.
   explicit operator bool() const;
   bool is_running() const { return *this && !ends_within(std::chrono::milliseconds(0)); }
   bool ends_within(std::chrono::milliseconds patience) const;
-  /// To the process alone.
+  /// Sends a signal to the process alone.
   void signal(int number);
-  /// Waits for its end, kills it when it takes longer than that, and kills those that it has started. Where a transfer
-  /// was broken it waits for 100 ms at least: a process closes its socket before the system says how it has ended.
+  /// Waits for the end of the process, kills it if it takes longer than `patience`, and kills those that it has
+  /// started. After a broken transfer it waits for at least 100 ms: a process closes its socket before the system
+  /// reports its end.
   End end(std::chrono::milliseconds patience = std::chrono::milliseconds(0));
 
   Transfer send(const void* data, std::size_t size, Clock::time_point until = no_deadline);
   Transfer receive(void* data, std::size_t size, Clock::time_point until = no_deadline);
-  /// What it has sent and nobody has received, also after its end: `most` bytes at most.
+  /// Returns what it has sent and nobody has received, also after its end: `most` bytes at most.
   std::string take_rest(std::size_t most);
 
  private:
@@ -79,13 +80,13 @@ class ChildProcess {
   Transfer wait_for(short event, Clock::time_point until) const;
   Transfer broken();
 
-  Descriptor socket_, process_;  ///< without the latter: see poll_with_process()
+  Descriptor socket_, process_;  ///< `process_` may be empty: see poll_with_process()
   bool has_closed_socket_ = false;
   pid_t pid_ = 0;    ///< 0: there is none
-  pid_t owner_ = 0;  ///< who has started it; another one has copies of the descriptors after a fork
+  pid_t owner_ = 0;  ///< process that has started it; after a fork another one has copies of the descriptors
 };
 
-/// "SIGSEGV"
+/// Returns the name of a signal, such as "SIGSEGV".
 std::string name_of_signal(int number);
 
 }  // namespace muro

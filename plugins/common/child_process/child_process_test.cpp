@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// With child_testing.cpp as the child.
+// Uses child_testing.cpp as the child.
 #include <gtest/gtest.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
@@ -24,7 +24,7 @@ using Transfer = ChildProcess::Transfer;
 
 ChildProcess::Setup child_that(const std::string& does) { return {own_folder() + "/child_for_tests", {does}}; }
 
-/// All that it says until its end.
+/// Returns all that the child writes until its end.
 std::string words_of(const ChildProcess::Setup& setup) {
   ChildProcess child;
   EXPECT_EQ(child.start(setup), 0);
@@ -39,7 +39,7 @@ int number_from(ChildProcess& child) {
 }
 
 TEST(ChildProcess, HasTheFilesThatItIsGivenAndNoOthers) {
-  const Descriptor low(dup(0)), high(fcntl(0, F_DUPFD, 100));  // which do not close by themselves
+  const Descriptor low(dup(0)), high(fcntl(0, F_DUPFD, 100));  // exec does not close these
   ASSERT_TRUE(low && high);
   ChildProcess::Setup setup = child_that("descriptors");
   EXPECT_EQ(words_of(setup), "0 1 2 3 ");
@@ -105,7 +105,7 @@ TEST(ChildProcess, SaysHowItHasEndedWhereItsSocketTellsFirst) {
     }
 }
 
-/// From now on the system says that it has no descriptors of processes.
+/// Makes the system report from now on that it has no descriptors of processes.
 bool forbid_descriptors_of_processes() {
   sock_filter program[] = {BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
                            BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_pidfd_open, 0, 1),
@@ -115,7 +115,7 @@ bool forbid_descriptors_of_processes() {
   return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
 }
 
-/// What goes wrong; 0: nothing.
+/// Returns a number for what goes wrong; 0: nothing.
 int without_descriptors_of_processes() {
   if (!forbid_descriptors_of_processes()) return 1;
   ChildProcess child;

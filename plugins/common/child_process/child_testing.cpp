@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For tests: a child process that does what its argument says.
+// A child process for tests. It does what its argument says.
 #include <dirent.h>
 #include <unistd.h>
 
@@ -35,7 +35,7 @@ void tell_signals() {
       (action.sa_handler == SIG_DFL ? "default" : "ignored"));
 }
 
-/// A process that would live on, and has all descriptors of this one.
+/// Starts a process that would live on, and has all descriptors of this one.
 void start_another() {
   const pid_t other = fork();
   if (other == 0)

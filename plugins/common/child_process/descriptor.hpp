@@ -6,7 +6,7 @@
 
 namespace muro {
 
-/// A file descriptor, closed at its end.
+/// A file descriptor that is closed at the end of its life.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -23,8 +23,8 @@ class Descriptor {
     if (number_ >= 0) close(number_);
     number_ = number;
   }
-  /// Gives it a number that is none of the standard streams, which may be closed. False, with errno, when there is
-  /// none.
+  /// Moves it to a number that is none of the standard streams, which may be closed. Returns false, with errno, if
+  /// there is no such number.
   bool keep_off_standard_streams() {
     if (number_ >= 0 && number_ <= STDERR_FILENO) reset(fcntl(number_, F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
     return number_ >= 0;

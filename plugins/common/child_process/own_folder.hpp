@@ -5,8 +5,8 @@
 
 namespace muro {
 
-/// The folder of the shared library, or the program, that calls this: each has a copy of this function. Empty when it
-/// is unknown.
+/// Returns the folder of the shared library, or the program, that calls this: each has its own copy of this function.
+/// Returns an empty text if the folder is unknown.
 std::string own_folder();
 
 }  // namespace muro

@@ -14,7 +14,7 @@ namespace {
 
 using File = ChildProcess::File;
 
-/// What posix_spawn is told.
+/// Settings for posix_spawn.
 class SpawnSettings {
  public:
   SpawnSettings() {
@@ -25,7 +25,7 @@ class SpawnSettings {
     posix_spawnattr_setsigmask(&attributes_, &signals);
     sigfillset(&signals);
     posix_spawnattr_setsigdefault(&attributes_, &signals);
-    // of a group of its own: Ctrl-C is for the simulation
+    // in its own group: Ctrl-C is for the simulation
     posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   }
   ~SpawnSettings() {
@@ -35,7 +35,7 @@ class SpawnSettings {
   SpawnSettings(const SpawnSettings&) = delete;
   SpawnSettings& operator=(const SpawnSettings&) = delete;
 
-  /// All numbers of `ours` are above `highest`, since each is put in place after the other.
+  /// All numbers of `ours` must be above `highest`, because files are put in place one after the other.
   void give(const std::vector<File>& files, int highest) {
     const auto is_given = [&](int number) {
       return std::any_of(files.begin(), files.end(), [&](const File& f) { return f.number == number; });

@@ -5,8 +5,8 @@
 
 namespace muro {
 
-/// Starts a program in a process group of its own, with this socket as child_socket. Nothing of ours runs between fork
-/// and exec, so that other threads may do what they like. Returns 0, or an error number.
+/// Starts a program in its own process group, with this socket as child_socket. None of our code runs between fork and
+/// exec, so other threads may do what they like. Returns 0, or an error number.
 int spawn(const ChildProcess::Setup& setup, int socket, pid_t& pid);
 
 }  // namespace muro

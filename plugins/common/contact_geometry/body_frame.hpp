@@ -6,14 +6,14 @@
 namespace muro::contact_geometry {
 inline namespace MURO_ISA {
 
-/// The frame of a body in the world, over a double or SIMD lanes of robots. Axes are computed where they are asked for:
-/// most shapes need few of their numbers.
+/// Frame of a body in the world, over a double or SIMD lanes of robots. Axes are computed when they are asked for,
+/// because most shapes need few of their numbers.
 template <class S>
 class BodyFrame {
  public:
   using V3 = lane::V3<S>;
 
-  /// Without `with_orientation` the axes must not be asked for.
+  /// Without `with_orientation` the axes must not be used.
   MURO_INLINE BodyFrame(const lane::Places<S>& pose, bool with_orientation) : position_(lane::load_vector(pose)) {
     if (!with_orientation) return;
     S q[4];
@@ -23,7 +23,7 @@ class BodyFrame {
 
   const V3& position() const { return position_; }  ///< m, world
   const lane::Q4<S>& orientation() const { return orientation_; }
-  /// Axis k in the world.
+  /// Returns axis k in the world.
   MURO_INLINE V3 axis(int k) const {
     switch (k) {
       case 0:
@@ -34,7 +34,7 @@ class BodyFrame {
         return orientation_.matrix().z;
     }
   }
-  /// A vector in body axes, in the world.
+  /// Rotates a vector from body axes to the world.
   MURO_INLINE V3 rotated(const double* v) const { return orientation_.matrix() * lane::splat<S>(v); }
 
  private:

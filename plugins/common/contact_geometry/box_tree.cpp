@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t leaf_size = 2;
 constexpr int bins = 8;
-constexpr int deepest_cut = 31;  // below that nodes are halved, at most 32 times
+constexpr int deepest_cut = 31;  // deeper nodes are halved, at most 32 times
 
 double surface(const Aabb& b) {
   const Vec3 d = (b.high - b.low).cwiseMax(0.0);
@@ -18,7 +18,7 @@ double surface(const Aabb& b) {
 
 Vec3 middle(const Aabb& b) { return 0.5 * b.low + 0.5 * b.high; }
 
-/// The bin of a centre whose distance from the first one is `offset`. Whatever the numbers are, it is one of the bins.
+/// Returns the bin of a centre at the distance `offset` from the first one. It is one of the bins for any numbers.
 int bin_of(double offset, double width) {
   const double bin = bins * (offset / width);
   return bin > 0 ? (bin < bins ? int(bin) : bins - 1) : 0;
@@ -29,8 +29,8 @@ struct Cut {
   double at = 0;
 };
 
-/// Where a split costs least by the surface area heuristic (Wald: On fast construction of
-/// SAH-based bounding volume hierarchies, 2007).
+/// Finds the split that costs least by the surface area heuristic (Wald: On fast construction of SAH-based bounding
+/// volume hierarchies, 2007).
 Cut best_cut(std::span<const std::uint32_t> items, std::span<const Aabb> boxes) {
   Aabb centres;
   for (const std::uint32_t i : items) centres.include({middle(boxes[i]), middle(boxes[i])});
@@ -75,7 +75,7 @@ void BoxTree::build(std::span<const Aabb> boxes, std::span<const std::uint32_t> 
 }
 
 void BoxTree::rebuild() {
-  std::sort(items_.begin(), items_.end());  // a tree depends on its boxes alone
+  std::sort(items_.begin(), items_.end());  // a tree depends only on its boxes
   build_nodes();
 }
 

@@ -11,13 +11,13 @@ namespace muro::contact_geometry {
 /// does not allocate.
 class BoxTree {
  public:
-  /// Over `boxes[i]` for every i in `members`; boxes are finite.
+  /// Builds the tree over `boxes[i]` for every i in `members`. The boxes must be finite.
   void build(std::span<const Aabb> boxes, std::span<const std::uint32_t> members);
-  /// Box number `item` has changed: refits the nodes on the way to the root.
+  /// Changes box number `item`, and refits the nodes on the way to the root.
   void move(std::uint32_t item, const Aabb& box);
   /// Whether boxes have moved so far that a search costs much more than in a new tree.
   bool is_degraded() const { return cost_ > 1.5 * built_cost_; }
-  /// A new tree over the same members as they are now.
+  /// Builds a new tree over the same members as they are now.
   void rebuild();
 
   Bvh view() const { return {nodes_, items_}; }
@@ -28,15 +28,15 @@ class BoxTree {
   void refit(std::uint32_t node);
 
   std::vector<Aabb> boxes_;
-  std::vector<BvhNode> nodes_;  ///< children behind their parents
+  std::vector<BvhNode> nodes_;  ///< children come after their parents
   std::vector<std::uint32_t> items_;
   std::vector<std::uint32_t> parents_;  ///< of nodes; the root's is itself
   std::vector<std::uint32_t> leaves_;   ///< of items
-  double cost_ = 0;                     ///< of a search: the surface of all nodes
-  double built_cost_ = 0;               ///< when it was built
+  double cost_ = 0;                     ///< cost of a search: the surface of all nodes
+  double built_cost_ = 0;               ///< the cost when it was built
 };
 
-/// Calls `visit(item)` for the items of all leaves that `box` overlaps. The leaves' bounds, not those of items, decide.
+/// Calls `visit(item)` for the items of all leaves whose bounds overlap `box`. The bounds of items are not checked.
 template <class Visit>
 void each_near(const Bvh& tree, const Aabb& box, Visit visit) {
   if (tree.nodes.empty()) return;

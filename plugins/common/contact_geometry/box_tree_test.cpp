@@ -90,7 +90,7 @@ TEST(BoxTree, AMovedTreeFindsWhatANewOneFindsAndKnowsWhenItDegrades) {
   EXPECT_LE(rebuilt, 10);
 }
 
-/// The deepest node; the root is at 0.
+/// Returns the depth of the deepest node; that of the root is 0.
 int depth_of(const Bvh& tree, std::uint32_t node = 0) {
   const BvhNode& n = tree.nodes[node];
   return n.count > 0 ? 0 : 1 + std::max(depth_of(tree, n.first), depth_of(tree, n.first + 1));
@@ -99,7 +99,7 @@ int depth_of(const Bvh& tree, std::uint32_t node = 0) {
 TEST(BoxTree, StaysShallowEnoughForASearchOnAFixedStack) {
   std::vector<Aabb> same(5000, Aabb{Vec3::Zero(), Vec3::Ones()}), growing;
   std::vector<std::uint32_t> members;
-  for (int i = 0; i < 300; ++i) {  // each box nine times as far away as the last
+  for (int i = 0; i < 300; ++i) {  // each box is nine times as far away as the one before
     const double x = std::pow(9.0, i);
     growing.push_back({Vec3(x, 0, 0), Vec3(1.5 * x, 1, 1)});
   }

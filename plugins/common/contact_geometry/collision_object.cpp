@@ -10,7 +10,7 @@ namespace {
 using mesh::Hull;
 
 /// Sets four corners of a face of a hull, in order around it: the farthest along `direction`, the one farthest from
-/// that, and on either side of the line through both the one farthest from the line.
+/// that, and on each side of the line through both the one farthest from the line.
 void set_corners(const Hull& hull, const Hull::Face& face, const Vec3& direction, const Pose& pose, Feature& f) {
   const std::span<const std::uint32_t> corners = hull.corners_of(face);
   const auto at = [&](std::size_t i) -> const Vec3& { return hull.vertices[corners[i]]; };
@@ -30,7 +30,7 @@ void set_corners(const Hull& hull, const Hull::Face& face, const Vec3& direction
   f.count = 4;
   f.points[0] = pose * at(support);
   f.points[2] = pose * at(far);
-  // of a triangle the middle of its longest side is the fourth corner
+  // in a triangle, the middle of its longest side is the fourth corner
   const Vec3 middle = pose * Vec3(0.5 * (at(support) + at(far)));
   const bool nothing_left = max_left >= -1e-9 * max_right, nothing_right = max_right <= -1e-9 * max_left;
   f.points[1] = nothing_left ? middle : pose * at(left);
@@ -53,7 +53,7 @@ Feature hull_face(const Hull& hull, const Pose& pose, const Vec3& towards) {
       second = std::max(second, out);
     }
   }
-  const Hull::Face* best = nullptr;  // of those about the support point
+  const Hull::Face* best = nullptr;  // among those about the support point
   for (const Hull::Face& f : hull.faces) {
     if (best && f.normal.dot(direction) <= best->normal.dot(direction)) continue;
     const std::span<const std::uint32_t> corners = hull.corners_of(f);
@@ -81,7 +81,7 @@ Feature plane_face(const CollisionObject& plane, const Vec3& centre, double reac
   return f;
 }
 
-/// Of a vector with these components.
+/// Returns the length of a vector with these components.
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 }  // namespace

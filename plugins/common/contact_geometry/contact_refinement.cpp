@@ -17,8 +17,8 @@ bool usable(const EngineContact& t) {
   return t.depth > 0 && std::isfinite(t.depth) && t.point.allFinite() && std::abs(t.normal.squaredNorm() - 1) < 1e-3;
 }
 
-/// The point moved along the normal to where it is half way between the surfaces: engines give one on either, or
-/// between. Of an exact mesh the distance is not known.
+/// Returns the point moved along the normal to half way between the surfaces. Engines give a point on either surface,
+/// or between them. For an exact mesh the distance is not known.
 ContactPoint at_midpoint(const CollisionObject& a, const CollisionObject& b, const EngineContact& t) {
   ContactPoint best{t.point, t.normal, t.depth};
   double least = std::numeric_limits<double>::infinity();
@@ -33,7 +33,7 @@ ContactPoint at_midpoint(const CollisionObject& a, const CollisionObject& b, con
   return best;
 }
 
-/// The features that face each other along a normal from b to a, and how deep the objects overlap along it.
+/// Features that face each other along a normal from b to a, and the depth of the objects' overlap along it.
 struct Facing {
   Feature a, b;
   double depth;
@@ -65,7 +65,7 @@ void refine_single(const CollisionObject& a, const CollisionObject& b, const Eng
   points.insert(points.end(), patch.points, patch.points + patch.count);
 }
 
-/// Keeps the deepest of points that are nearer to each other than `distance`, from number `first` on.
+/// Keeps the deepest of points that are closer to each other than `distance` (m), from number `first` on.
 void remove_duplicates(std::vector<ContactPoint>& points, std::size_t first, double distance) {
   std::size_t count = first;
   for (std::size_t i = first; i < points.size(); ++i) {
@@ -82,20 +82,20 @@ void remove_duplicates(std::vector<ContactPoint>& points, std::size_t first, dou
   points.erase(points.begin() + std::ptrdiff_t(count), points.end());
 }
 
-/// The support point of a feature that is a single point, if it is over or under the triangle.
+/// Adds the support point of a feature that is a single point, if it is over or under the triangle.
 void add_support_point(const Feature& point, const Feature& face, Manifold& out) {
   const double depth = face.normal.dot(face.centre - point.support);
   if (depth <= 0) return;
   for (int k = 0; k < 3; ++k) {
     const Vec3 side = face.points[(k + 1) % 3] - face.points[k];
     const Vec3 inward = face.normal.cross(side);
-    const double winding = inward.dot(face.centre - face.points[k]);  // of an open mesh seen from behind
+    const double winding = inward.dot(face.centre - face.points[k]);  // sign: an open mesh may be seen from behind
     if (inward.dot(point.support - face.points[k]) * winding < -1e-9 * winding * winding) return;
   }
   out.add(point.support + 0.5 * depth * face.normal, face.normal, depth);
 }
 
-/// Points deeper than `deepest` (m) are dropped: there the object overlaps with what lies behind the triangle.
+/// Refines a contact with a triangle. Drops points deeper than `deepest` (m), which overlap with what lies behind it.
 void refine_triangle(const CollisionObject& a, const CollisionObject& b, const EngineContact& contact, double deepest,
                      std::vector<ContactPoint>& points) {
   const ExactMesh& mesh = *b.geometry->exact_mesh;
@@ -165,7 +165,7 @@ void refine_contacts(const CollisionObject& a, const CollisionObject& b, std::ve
   std::sort(contacts.begin(), contacts.end(), [](const EngineContact& s, const EngineContact& t) {
     return s.triangle != t.triangle ? s.triangle < t.triangle : s.depth > t.depth;
   });
-  // a slim tip on an edge has a short way out to the side of either triangle, which is none
+  // a slim tip on an edge has a short way out to the side of either triangle, which is no real way out
   double deepest = 1e-3 * bounding_radius(*a.geometry);
   for (const EngineContact& t : contacts) deepest = std::max(deepest, 1.5 * t.depth);
   for (std::size_t i = 0; i < contacts.size(); ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which contacts are points on the rim of a disc: the same four points may stand for a square.
+// Decides which contacts are points on the rim of a disc. The same four points may also be those of a square.
 #pragma once
 
 #include <limits>
@@ -8,11 +8,11 @@
 
 namespace muro::contact_geometry {
 
-/// Of a shape for contacts.
+/// Size of a shape, for contacts.
 struct ShapeExtent {
-  double reach = 0;  ///< m: radius of a ball about it, of a cylinder that of its rim; infinite: not looked at
+  double reach = 0;  ///< m: radius of a ball about it; cylinder: radius of its rim; infinite: not considered
   bool is_cylinder = false;
-  Vec3 rim = Vec3::Zero();  ///< m, in the frame of the link: axis of a cylinder, as long as its radius
+  Vec3 rim = Vec3::Zero();  ///< m, in the frame of the link: axis of a cylinder, its length is the radius
 };
 inline ShapeExtent extent_of(const Shape& shape) {
   switch (shape.kind) {
@@ -27,7 +27,7 @@ inline ShapeExtent extent_of(const Shape& shape) {
   }
 }
 
-/// Whether it is a disc that touches where the faces of two shapes do: the smaller one is a cylinder.
+/// Whether a disc touches where the faces of two shapes touch: the smaller shape is a cylinder.
 inline bool is_of_disc(const ShapeExtent& a, const ShapeExtent& b) {
   return a.reach <= b.reach ? a.is_cylinder : b.is_cylinder;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a collision engine does for EngineCollision: the narrow phase, one pair of geometries at a time.
+// Interface of a collision engine for EngineCollision: the narrow phase, one pair of geometries at a time.
 #pragma once
 
 #include <memory>
@@ -10,17 +10,17 @@
 
 namespace muro::contact_geometry {
 
-/// One point in which an engine has found two geometries to overlap.
+/// A point in which an engine has found two geometries to overlap.
 struct EngineContact {
   Vec3 point;                  ///< m, world: on either surface or between them
   Vec3 normal;                 ///< unit, world: from the second geometry to the first
   double depth = 0;            ///< m, along the normal
-  std::int64_t triangle = -1;  ///< of the second geometry, when that is an exact mesh; -1: the engine does not tell
+  std::int64_t triangle = -1;  ///< of the second geometry, when that is an exact mesh; -1: unknown
   bool rough = false;          ///< the normal separates the geometries, but may be far from the shortest way to do so
 };
 
-/// Finds the contacts of pairs. Holds the buffers that an engine needs for that: one thread uses it at a time, and its
-/// results do not depend on earlier pairs.
+/// Finds the contacts of pairs. Holds the buffers that an engine needs, so one thread uses it at a time. Its results do
+/// not depend on earlier pairs.
 class NarrowPhase {
  public:
   NarrowPhase() = default;
@@ -28,8 +28,8 @@ class NarrowPhase {
   NarrowPhase& operator=(const NarrowPhase&) = delete;
   virtual ~NarrowPhase() = default;
 
-  /// Adds where the geometries with numbers `a` and `b` overlap at these poses. Only `b` may be a plane or an exact
-  /// mesh; of the latter every triangle that is touched is reported, by its number or by a point on it.
+  /// Adds the points in which geometries number `a` and `b` overlap at these poses. Only `b` may be a plane or an exact
+  /// mesh. Of an exact mesh every touched triangle is reported, by its number or by a point on it.
   virtual void collide(std::uint32_t a, const Pose& pose_a, std::uint32_t b, const Pose& pose_b,
                        std::vector<EngineContact>& contacts) = 0;
 };
@@ -41,11 +41,12 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
   virtual ~Engine() = default;
 
-  /// Whether it takes heightmaps as exact meshes. Else their contacts are found in closed form, without the engine.
+  /// Whether it takes heightmaps as exact meshes. Otherwise their contacts are found in closed form, without the
+  /// engine.
   virtual bool takes_heightmaps_as_meshes() const { return false; }
-  /// Where the engine's messages go. [setup]
+  /// Sends the engine's messages to the log of a host. [setup]
   virtual void use_log(Host& host) { static_cast<void>(host); }
-  /// The geometry gets the next number, from 0 on; it outlives the engine at the same address. [setup]
+  /// Adds a geometry, which gets the next number, from 0 on. It outlives the engine at the same address. [setup]
   virtual void add(const CollisionGeometry& geometry) = 0;
   /// [any thread]
   virtual std::unique_ptr<NarrowPhase> make_narrow_phase() const = 0;

@@ -10,7 +10,7 @@ namespace {
 
 bool is_plane(const TransformedCollider& c) { return c.shape.kind == ShapeKind::plane; }
 
-/// Whether all of the box is on the free side of the plane.
+/// Whether the whole box is on the free side of the plane.
 bool is_clear(const Aabb& box, const TransformedShape& plane) {
   const Vec3 n = plane.axis(), half = 0.5 * (box.high - box.low);
   return n.dot(0.5 * (box.low + box.high) - plane.centre) > n.cwiseAbs().dot(half);
@@ -18,7 +18,7 @@ bool is_clear(const Aabb& box, const TransformedShape& plane) {
 
 }  // namespace
 
-/// What one thread works with.
+/// Buffers of one thread.
 struct EngineCollision::Scratch {
   std::unique_ptr<NarrowPhase> narrow_phase;
   std::vector<EngineContact> contacts;
@@ -49,7 +49,7 @@ void EngineCollision::start() {
   PairCollision::start();
 }
 
-/// A heightmap that the engine does not take has the box of what is solid.
+/// Returns the shape of a collider. A heightmap that the engine does not take has the box of its solid.
 TransformedShape EngineCollision::transformed_shape(std::uint32_t collider) const {
   const Collider& c = index_->colliders[collider];
   if (c.shape->kind == ShapeKind::heightmap && !heightmaps_.empty()) {

@@ -8,7 +8,7 @@
 
 namespace muro::contact_geometry {
 
-/// Collision detection whose narrow phase is that of an engine. Its plugin's description has `mesh_parameters`.
+/// Collision detection with the narrow phase of an engine. The description of its plugin has `mesh_parameters`.
 class EngineCollision : public PairCollision {
  public:
   explicit EngineCollision(std::unique_ptr<Engine> engine);
@@ -31,8 +31,8 @@ class EngineCollision : public PairCollision {
   PerThread<Scratch> scratch_;  ///< freed before the engine
 
   GeometryTable geometries_;
-  terrain_contact::SceneHeightmaps heightmaps_;  ///< those that the engine does not take
-  std::vector<std::string> names_;               ///< by object; empty for those without shapes
+  terrain_contact::SceneHeightmaps heightmaps_;  ///< heightmaps that the engine does not take
+  std::vector<std::string> names_;               ///< by object; empty for objects without shapes
 };
 
 }  // namespace muro::contact_geometry

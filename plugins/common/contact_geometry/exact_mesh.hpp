@@ -14,12 +14,12 @@ class ExactMesh {
 
   const mesh::Mesh& surface() const { return *surface_; }
   const Vec3& normal(std::size_t triangle) const { return triangles_[triangle].normal; }
-  /// Whether the mesh has an inside, so that it pushes along its normals only.
+  /// Whether the mesh has an inside. Then it pushes only along its normals.
   bool closed() const { return closed_; }
 
-  /// Whether a contact with triangle number `triangle` may have the normal `n` (unit, in the frame of the mesh): n may
-  /// lean over an edge only if that is convex, and no farther than the neighbour's normal does. Other normals are
-  /// artefacts of taking triangles one by one.
+  /// Whether a contact with triangle number `triangle` may have the normal `n` (unit, in the frame of the mesh). It may
+  /// lean over an edge only if the edge is convex, and no farther than the neighbour's normal does. Other normals are
+  /// artefacts of testing triangles one by one.
   bool allows(std::size_t triangle, const Vec3& n) const;
 
   /// Calls `visit(number)` for triangles that a box (m, in the frame of the mesh) may touch.
@@ -28,12 +28,12 @@ class ExactMesh {
     contact_geometry::each_near(tree_.view(), box, visit);
   }
 
-  /// The triangle nearest to a point (m, in the frame of the mesh) that is over or under it, at most `reach` (m) away;
-  /// -1: there is none.
+  /// Returns the triangle nearest to a point (m, in the frame of the mesh) that is over or under the point, at most
+  /// `reach` (m) away; -1: there is none.
   std::int64_t triangle_at(const Vec3& point, double reach) const;
 
-  /// The triangle as a face when the mesh is at `pose`; the normal of an open mesh points to the side of `seen_from`
-  /// (m, world).
+  /// Returns the triangle as a face, with the mesh at `pose`. The normal of an open mesh points to the side of
+  /// `seen_from` (m, world).
   Feature face(std::size_t triangle, const Pose& pose, const Vec3& seen_from) const;
 
  private:

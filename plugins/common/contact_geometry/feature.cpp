@@ -95,7 +95,7 @@ struct Projection {
     return {{x.dot(d), y.dot(d)}, z.dot(d)};
   }
   Vec3 back(const Vec2& at, double height) const { return origin + at.x() * x + at.y() * y + height * z; }
-  /// The height of the feature's plane over `at`.
+  /// Returns the height of the feature's plane over `at`.
   double height_of(const Feature& f, const Vec2& at) const {
     const Vec3 d = origin - f.centre;
     const double nz = f.normal.dot(z);
@@ -103,14 +103,14 @@ struct Projection {
   }
 };
 
-/// The part of the polygon (or line) to the left of the line from p to q, or within `slack` of it.
+/// Clips a polygon (or line) to the part left of the line from p to q, or within `slack` of it.
 int clip(const Projected* in, int count, const Vec2& p, const Vec2& q, double slack, Projected* out) {
   const Vec2 along = q - p;
   const double length = along.norm();
   int left = 0;
   if (!(length > 0)) return 0;
   const auto inside = [&](const Projected& s) { return cross(along, s.at - p) / length + slack; };
-  const int edges = count == 2 ? 1 : count;  // a line has one, and two ends
+  const int edges = count == 2 ? 1 : count;  // a line has one edge, and two ends
   for (int i = 0; i < edges; ++i) {
     const Projected &a = in[i], &b = in[(i + 1) % count];
     const double da = inside(a), db = inside(b);
@@ -124,7 +124,7 @@ int clip(const Projected* in, int count, const Vec2& p, const Vec2& q, double sl
   return left;
 }
 
-/// The square (m^2) of the length of a line or the diagonal of a face.
+/// Returns the square (m^2) of the length of a line or of the diagonal of a face.
 double extent2(const Feature& f) { return (f.points[f.count / 2] - f.points[0]).squaredNorm(); }
 
 /// Clips a line or face against a face.
@@ -146,7 +146,7 @@ void clip_against_face(const Feature& f, const Feature& face, const Projection& 
   }
 }
 
-/// Line against line: where they cross, or, if they are parallel, the ends of the segment that they share.
+/// Adds the point where two lines cross or, if they are parallel, the ends of the segment that they share.
 void cross_lines(const Feature& a, const Feature& b, const Projection& project, Manifold& out) {
   const Projected a0 = project(a.points[0]), a1 = project(a.points[1]), b0 = project(b.points[0]),
                   b1 = project(b.points[1]);
@@ -171,7 +171,7 @@ void cross_lines(const Feature& a, const Feature& b, const Projection& project, 
   }
 }
 
-/// Whether the first is the one that is clipped, or projected, against the second.
+/// Whether the first feature is the one that is clipped, or projected, against the second.
 bool lies_in(const Feature& a, const Feature& b) {
   const bool both_faces = a.count == 4 && b.count == 4;
   return both_faces ? extent2(a) <= extent2(b) : b.count == 4;
@@ -186,7 +186,7 @@ void overlap(const Feature& a, const Feature& b, bool a_in_b, const Projection& 
     cross_lines(a, b, project, out);
 }
 
-/// The point of the face or line nearest to `p`, all projected.
+/// Returns the point of the face or line nearest to `p`, all projected.
 Vec2 nearest_in(const Feature& f, const Projection& project, const Vec2& p) {
   const Vec2 centre = project(f.centre).at;
   if (f.disc_radius > 0) {
@@ -206,7 +206,7 @@ Vec2 nearest_in(const Feature& f, const Projection& project, const Vec2& p) {
   return in ? p : best;
 }
 
-/// The deepest point, from the support points of the features.
+/// Returns the deepest point, from the support points of the features.
 Vec3 deepest_point(const Feature& a, const Feature& b, const Projection& project, double depth) {
   if (a.is_unique) return a.support + 0.5 * depth * project.z;
   if (b.is_unique) return b.support - 0.5 * depth * project.z;
@@ -247,7 +247,7 @@ void add_patch(const Feature& a, const Feature& b, const Vec3& normal, double de
   int deepest = -1;
   for (int i = 0; i < out.count; ++i) {
     double& at = out.points[i].depth;
-    at = std::min(at, depth);  // off by the slack of the clipping
+    at = std::min(at, depth);  // it may be off by the slack of the clipping
     if (deepest < 0 || at > out.points[deepest].depth) deepest = i;
   }
   if (deepest >= 0 && out.points[deepest].depth > depth * (1 - 1e-6)) {

@@ -18,13 +18,13 @@ struct Feature {
   bool is_unique = false;       ///< no other point lies as far as `support`
 };
 
-/// Of a box, cylinder or capsule; `direction` is a unit vector. A box gives the face whose normal is
-/// nearest to the direction, a cylinder its end or the line of its side.
+/// Returns the feature of a box, cylinder or capsule. `direction` is a unit vector. A box gives the face whose normal
+/// is nearest to the direction, a cylinder its end or the line of its side.
 Feature feature_towards(const TransformedShape& shape, const Vec3& direction);
 
-/// Adds the overlap of two features along `normal` (unit, from second to first): both are projected along it and
-/// intersected, and the corners of the intersection are the points, each half way between the features and with its own
-/// depth, if that is positive. None if one is a single point.
+/// Adds the overlap of two features along `normal` (unit, from second to first). Both are projected along it and
+/// intersected. The corners of the intersection are the points, each half way between the features and with its own
+/// depth, if that is positive. If one feature is a single point, nothing is added.
 void add_overlap(const Feature& first, const Feature& second, const Vec3& normal, Manifold& out);
 
 /// Adds the contact patch of two shapes that overlap by `depth` along `normal` (from second to first): the overlap of

@@ -10,7 +10,7 @@
 namespace muro::contact_geometry {
 namespace {
 
-/// Whether two shapes collide alike, apart from their poses.
+/// Whether two shapes have equal geometries, apart from their poses.
 bool same_geometry(const Shape& a, const Shape& b) { return a.kind == b.kind && a.mesh == b.mesh && a.size == b.size; }
 
 }  // namespace
@@ -38,7 +38,7 @@ std::uint32_t GeometryTable::add(const CollisionGeometry& geometry) {
   return std::uint32_t(geometries_.size() - 1);
 }
 
-/// Null when the mesh is flat.
+/// Returns the hull of a mesh; null if the mesh is flat.
 const mesh::Hull* GeometryTable::hull_if_any(const std::string& path, const Vec3& scale) {
   try {
     return &meshes_.hull(path, scale);
@@ -47,7 +47,7 @@ const mesh::Hull* GeometryTable::hull_if_any(const std::string& path, const Vec3
   }
 }
 
-/// Null when the mesh lies on a line.
+/// Returns the hull of a mesh, or its plate if it is flat; null if the mesh lies on a line.
 const mesh::Hull* GeometryTable::plate_if_any(const std::string& path, const Vec3& scale) {
   try {
     return &meshes_.hull_or_plate(path, scale);

@@ -12,27 +12,27 @@
 namespace muro::contact_geometry {
 
 inline constexpr std::string_view mesh_options[] = {"convex", "exact"};
-/// The parameters of collision algorithms that take meshes; their plugins' descriptions name them.
+/// Parameters of collision algorithms that take meshes; the descriptions of their plugins name them.
 inline constexpr Parameter mesh_parameters[] = {
     text("meshes", "convex", "whether a mesh collides as its convex hull or, exact, as it is").one_of(mesh_options),
 };
 
-/// The geometries of all collision shapes of a scene, numbered, those that are alike once.
+/// Numbered geometries of all collision shapes of a scene. Equal geometries have one number.
 class GeometryTable {
  public:
   static constexpr std::uint32_t none = 0xffffffff;
-  /// Of one shape: as it collides, and its convex hull for pairs that need one.
+  /// Numbers of the geometries of one shape: the usual one, and its convex hull for pairs that need one.
   struct Numbers {
     std::uint32_t usual = none, convex = none;
   };
 
-  /// What becomes of heightmaps.
+  /// Treatment of heightmaps.
   enum class Heightmaps {
     as_meshes,  ///< they are taken as triangles
     left_out,   ///< they have no geometry
   };
 
-  /// Reads the meshes of all objects. `exact`: they collide as they are; flat ones, which have no hull, always do.
+  /// Reads the meshes of all objects. `exact`: meshes collide as they are; flat ones, which have no hull, always do.
   /// `added` is called with each geometry, by rising number. [setup]
   void connect(Connector& c, bool exact, const std::function<void(const CollisionGeometry&)>& added = {},
                Heightmaps heightmaps = Heightmaps::as_meshes);
@@ -41,11 +41,12 @@ class GeometryTable {
 
   std::size_t size() const { return geometries_.size(); }
   const CollisionGeometry& operator[](std::uint32_t number) const { return geometries_[number]; }
-  /// By the number of a collider.
+  /// Returns the numbers of a collider, by its number.
   const Numbers& of(std::uint32_t collider) const { return by_collider_[collider]; }
   bool is_exact_mesh(std::uint32_t number) const { return geometries_[number].exact_mesh != nullptr; }
-  /// As which geometries two colliders meet: of two exact meshes that of a robot is taken as its hull; with a plane
-  /// every mesh is. `none`: a flat mesh where its hull is needed; the two do not touch.
+  /// Chooses the geometries with which two colliders meet. Of two exact meshes, that of a robot is taken as its hull.
+  /// With a plane, every mesh is taken as its hull. `none`: a flat mesh has no hull where one is needed; the two do not
+  /// touch.
   void choose(const TransformedCollider& a, const TransformedCollider& b, std::uint32_t& number_a,
               std::uint32_t& number_b) const;
 

@@ -6,20 +6,20 @@
 namespace muro::contact_geometry {
 namespace {
 
-/// p_b(n) - p_a(-n), m.
+/// Returns p_b(n) - p_a(-n), m.
 Vec3 depth_gradient(const CollisionObject& a, const CollisionObject& b, const Vec3& n) {
   return support_point(b, n) - support_point(a, Vec3(-n));
 }
 
-/// Calls `use` with the directions of edges and axes of a primitive, which for a box and for the ends of a cylinder are
-/// those of face normals too.
+/// Calls `use` with the directions of edges and axes of a primitive. For a box and for the ends of a cylinder these are
+/// also the face normals.
 template <class Use>
 void each_axis(const CollisionObject& s, Use use) {
   if (s.geometry->hull || s.shape.kind == ShapeKind::sphere) return;
   for (int k = s.shape.kind == ShapeKind::box ? 0 : 2; k < 3; ++k) use(Vec3(s.shape.axes.col(k)));
 }
 
-/// Calls `use` with the normals of flat faces; of a hull with those that look roughly along `direction`.
+/// Calls `use` with the normals of flat faces; for a hull, with those that point roughly along `direction`.
 template <class Use>
 void each_face(const CollisionObject& s, const Vec3& direction, Use use) {
   if (!s.geometry->hull) {
@@ -32,7 +32,7 @@ void each_face(const CollisionObject& s, const Vec3& direction, Use use) {
     if (f.normal.dot(local) > 0.7 && remaining-- > 0) use(Vec3(s.pose.orientation * f.normal));
 }
 
-/// The best direction known so far, and the search for a better one.
+/// The best direction found so far, and the search for a better one.
 class Search {
  public:
   Search(const CollisionObject& a, const CollisionObject& b, const Vec3& start) : a_(a), b_(b), best_(start) {
@@ -49,7 +49,7 @@ class Search {
   }
   void consider_both(const Vec3& n) { consider(n), consider(Vec3(-n)); }
 
-  /// All directions at right angles to `axis`, where the gradient of the depth is discontinuous.
+  /// Searches all directions at right angles to `axis`, where the gradient of the depth is discontinuous.
   void search_crease(const Vec3& axis) {
     constexpr int samples = 16;
     const Vec3 x = perpendicular(axis), y = axis.cross(x);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the contact algorithm tells of impacts within the last step.
+// Report of the contact algorithm on impacts within the last step.
 #pragma once
 
 #include "muro/algorithm.hpp"
@@ -7,17 +7,17 @@
 
 namespace muro::contact_geometry {
 
-/// Of a robot whose impacts act at their instant; by default none.
+/// Input of a robot whose impacts act at their instant; by default it has none.
 class ImpactInput {
  public:
   ImpactInput() = default;
-  /// Tells the contact algorithm that the motion corrects the path of `robot`. [setup]
+  /// Reports to the contact algorithm that the motion corrects the path of `robot`. [setup]
   ImpactInput(Connector& c, const RobotView& robot)
       : time_(c.input(robot.base(), keys::impact_time, std::int64_t{0})),
         correction_(c.input(robot.base(), keys::impact, ImpactCorrection{})),
         step_(c.variable(robot.base(), keys::impact_step, 0.0)) {}
 
-  /// Tells the length of the step. Returns what impacts change in it; null for nothing.
+  /// Reports the length of the step. Returns the changes of impacts in it; null for none.
   const ImpactCorrection* begin_step(const Step& step) const {
     if (!time_) return nullptr;
     if (*step_ != step.dt) *step_ = step.dt;

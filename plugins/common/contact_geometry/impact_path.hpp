@@ -10,9 +10,9 @@
 
 namespace muro::contact_geometry {
 
-/// Moves a body to where it would be had its last impulses acted at the time of impact. The angular momentum about any
-/// point is kept: what the path adds to that of the centre is taken from the spin. `pose`, `twist`: numbers of the
-/// base.
+/// Moves a body to where it would be if its last impulses had acted at the time of impact. Keeps the angular momentum
+/// about any point: what the path adds to that of the centre is subtracted from the spin. `pose`, `twist`: numbers of
+/// the base.
 inline void correct_path(double* pose, double* twist, const lane::Mass<double>& mass, const lane::M3<double>& inverse,
                          double inverse_mass, const ImpactCorrection& impact) {
   using lane::cross, lane::in_world;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contacts from step to step. Contact points have no names, so what is kept of one in the step before is found by the
-// bodies and shapes that touch and by the nearest point. Bodies are named by hashes: the state does not depend on the
+// Contacts kept from step to step. Contact points have no names, so the kept data of a contact are found by the bodies
+// and shapes that touch and by the nearest point. Bodies are named by hashes, so that the state does not depend on the
 // order in which objects were declared.
 #pragma once
 
@@ -18,8 +18,8 @@ inline std::uint64_t pair_of(std::uint64_t self, std::uint64_t other, std::uint3
   return (self ^ (std::rotl(other, 17) + self_shape * 0x9E3779B97F4A7C15ull)) + other_shape * 0xC2B2AE3D27D4EB4Full;
 }
 
-/// What is kept of a contact (its pair and point) in the step before; null for a new one. `place`: how many contacts
-/// of the robot came before this one; there the search begins, since contacts mostly keep their order.
+/// Returns what was kept in the step before of a contact, given by its pair and point; null for a new one. `place`:
+/// number of contacts of the robot before this one. The search begins there, because contacts usually keep their order.
 template <class Kept>
 const Kept* previous(std::span<const Kept> before, std::size_t place, std::uint64_t pair, const Vec3& point) {
   std::size_t i = place;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which links of one robot can touch each other: the rule of motions that collide links of a robot (`self_collision`),
-// and of collision algorithms that find such contacts for them.
+// Rule for which links of one robot can touch each other. It is used by motions that collide links of a robot
+// (`self_collision`), and by collision algorithms that find such contacts for them.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace muro::contact_geometry {
 
-/// The rigid bodies of a robot: links that fixed joints hold together are one.
+/// Rigid bodies of a robot: links that fixed joints hold together are one body.
 class LinkBodies {
  public:
   explicit LinkBodies(const RobotView& robot) {
@@ -24,7 +24,8 @@ class LinkBodies {
       parents_.push_back(is_base ? -1 : std::int32_t(of_link_[std::size_t(link.parent)]));
     }
   }
-  /// Of the robot's link `a` and link `b`: not those of one body, and not those of bodies that a joint connects.
+  /// Whether links `a` and `b` of the robot may touch: not links of one body, and not those of bodies that a joint
+  /// connects.
   bool may_touch(std::uint32_t a, std::uint32_t b) const {
     const std::uint32_t first = of_link_[a], second = of_link_[b];
     return first != second && parents_[first] != std::int32_t(second) && parents_[second] != std::int32_t(first);

@@ -66,7 +66,7 @@ void OverlapCache::add_pair(std::uint32_t a, std::uint32_t b) {
   of_[b].robots.push_back({a, number});
 }
 
-/// But those with unbounded robots.
+/// Removes the pairs of a robot, except those with unbounded robots.
 void OverlapCache::remove_pairs_of(std::uint32_t robot) {
   std::erase_if(of_[robot].robots, [&](const Overlap& overlap) {
     if (unbounded_[overlap.robot] != 0) return false;

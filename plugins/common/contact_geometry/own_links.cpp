@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where links of one robot touch each other, for motions that resolve that (keys::self_collision).
+// Contacts among the links of one robot, for motions that resolve them (keys::self_collision).
 #include <algorithm>
 #include <limits>
 
@@ -16,7 +16,7 @@ bool is_ground(const Collider& c) { return c.shape->kind == ShapeKind::plane || 
 
 }  // namespace
 
-/// Of a robot with a list.
+/// Connects the links of a robot with a list.
 void PairCollision::connect_own_links(Connector& c, const RobotView& view) {
   if (!c.is_used(view.base(), keys::self_collision, usage::variable)) return;
   OwnLinks& own = own_links_.emplace_back();
@@ -30,7 +30,7 @@ void PairCollision::connect_own_links(Connector& c, const RobotView& view) {
   robots_[index_of(view.id)].own_links = std::int32_t(own_links_.size()) - 1;
 }
 
-/// Finds the colliders that may touch, and takes the memory that steps need.
+/// Finds the colliders that may touch, and allocates the memory that steps need.
 void PairCollision::start_own_links() {
   for (OwnLinks& own : own_links_) {
     own.pairs.clear();
@@ -67,7 +67,7 @@ void PairCollision::collide_own_links(OwnLinks& own, std::uint64_t step) {
   }
 }
 
-/// Those that are closer than links move towards each other in some steps, as far as the last one tells.
+/// Finds the colliders that are closer than links approach each other in some steps, judged by the last step.
 void PairCollision::find_close(OwnLinks& own) {
   constexpr double steps = 16, least = 1e-3;  // -, m
   const RobotColliders& colliders = index_->robots[own.robot];

@@ -20,7 +20,7 @@ static_assert(offsetof(ContactPoint, normal) == offsetof(ContactPoint, point) + 
 const TransformedCollider& collider_of(const TransformedCollider& c) { return c; }
 const TransformedCollider& collider_of(const TransformedCollider* c) { return *c; }
 
-/// Behind the last collider of the body that the first belongs to.
+/// Returns the end of the colliders of the body to which `first` belongs.
 template <class It>
 It end_of_body(It first, It end) {
   const ObjectId body = collider_of(*first).collider->body;
@@ -40,7 +40,7 @@ bool merge(const Candidates& candidates, const Visit& visit) {
   return true;
 }
 
-/// Radius (m) of a ball about `centre` that holds the shape.
+/// Returns the radius (m) of a ball about `centre` that holds the shape.
 double radius_about(const Vec3& centre, const TransformedShape& shape) {
   constexpr double rounding = 1 + 1e-9;
   double radius = shape.half.norm();
@@ -186,7 +186,7 @@ TransformedCollider PairCollision::transformed_collider(std::uint32_t collider) 
   return {&index_->colliders[collider], collider, shape, bounds_of(shape)};
 }
 
-/// An order of robots that does not depend on who was declared first.
+/// Whether the first robot precedes the second, in an order that does not depend on who was declared first.
 bool PairCollision::precedes(std::uint32_t a, std::uint32_t b) const {
   return robots_[a].order_key != robots_[b].order_key ? robots_[a].order_key < robots_[b].order_key : a < b;
 }
@@ -195,7 +195,7 @@ bool PairCollision::has_contacts(const Robot& robot) const {
   return robot.list && (robot.lists_all || is_moved_by_forces(*robot.world));
 }
 
-/// Whether contacts of the first with the second belong into its list.
+/// Whether contacts of the first with the second belong in its list.
 bool PairCollision::lists(std::uint32_t robot, std::uint32_t other) const {
   const Robot &mine = robots_[robot], &theirs = robots_[other];
   if (!has_contacts(mine) || theirs.shadow_of != no_robot || mine.shadow_of == RobotId{other}) return false;
@@ -224,7 +224,7 @@ Candidates& PairCollision::candidates(std::uint32_t robot) {
   return found;
 }
 
-/// Near colliders and all planes, as declared.
+/// Adds near colliders and all planes, in declared order.
 void PairCollision::add_scenery(const OverlapCache::Overlaps& overlaps, const Aabb& bounds,
                                 Candidates& candidates) const {
   std::size_t plane = 0;
@@ -263,10 +263,10 @@ void PairCollision::collide_scenery(Candidates& candidates, Sink sink) {
   }
 }
 
-/// What two robots have found for each other. `rank`: one more than the number of the other in `candidates.robots`.
+/// Adds what two robots have found for each other. `rank`: index of the other in `candidates.robots` plus one.
 void PairCollision::add_listed(std::uint32_t robot, std::uint32_t rank, Candidates& candidates) const {
   const Candidates::Partner& partner = candidates.robots[rank - 1];
-  // A plane of a robot is touched by those that have a list themselves.
+  // Planes of a robot count only for robots that have a list themselves.
   const bool without_planes = robots_[robot].has_plane && !has_contacts(robots_[partner.robot]);
   for (std::uint32_t i = 0; i < partner.points.size(); ++i) {
     const PairPoint& found = partner.points[i];
@@ -291,7 +291,7 @@ void PairCollision::write_numbers(const Candidates::Listed& listed, const Candid
   contact.depth = numbers[6];
 }
 
-/// Gives the contacts of a list the numbers that were found. False: it is not a list of these colliders.
+/// Writes the numbers that were found to the contacts of a list. Returns false if the list is not of these colliders.
 bool PairCollision::update_list(std::span<Contact> list, const Candidates& candidates) const {
   if (list.size() != candidates.with_scenery.size() + candidates.with_robots.size()) return false;
   Contact* contact = list.data();
@@ -302,8 +302,8 @@ bool PairCollision::update_list(std::span<Contact> list, const Candidates& candi
   });
 }
 
-/// Fills the list with what has been found, in its order. A list of the same colliders as before gets other numbers
-/// and keeps its revision.
+/// Fills the list with what has been found, in its order. If the colliders are the same as before, only the numbers
+/// change, and the list keeps its revision.
 void PairCollision::write_list(const ListOut<Contact>& list, Candidates& candidates) const {
   for (std::vector<Candidates::Listed>* listed : {&candidates.with_scenery, &candidates.with_robots})
     if (!std::is_sorted(listed->begin(), listed->end())) std::sort(listed->begin(), listed->end());
@@ -319,7 +319,7 @@ void PairCollision::write_list(const ListOut<Contact>& list, Candidates& candida
 
 void PairCollision::list_pairs(std::uint32_t robot, Candidates& candidates) {
   const ListOut<Contact>& list = robots_[robot].list;
-  const bool is_mixed = !candidates.robots.empty();  // then some of its colliders have been placed
+  const bool is_mixed = !candidates.robots.empty();  // if so, some of its colliders have been placed
   if (!is_mixed && !(*list).empty()) list.clear();
   if (candidates.others.empty() && !is_mixed) return;
   const RobotColliders& colliders = index_->robots[robot];

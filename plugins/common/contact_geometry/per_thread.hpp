@@ -7,14 +7,14 @@
 
 namespace muro::contact_geometry {
 
-/// A number for the calling thread that no other has ever had.
+/// Returns a number of the calling thread that no other thread has ever had.
 inline std::uint64_t thread_number() {
   static std::atomic<std::uint64_t> next{0};
   thread_local const std::uint64_t number = next.fetch_add(1, std::memory_order_relaxed);
   return number;
 }
 
-/// One object for each thread that asks, made when it first does. Takes no locks; the owner frees them all.
+/// One object for each thread that asks, made at its first call. Takes no locks. The owner frees all objects.
 template <class T>
 class PerThread {
  public:
@@ -23,7 +23,7 @@ class PerThread {
   PerThread& operator=(const PerThread&) = delete;
   ~PerThread() { clear(); }
 
-  /// `make()` gives a std::unique_ptr<T>. [any thread]
+  /// Returns the object of the calling thread. `make()` returns a std::unique_ptr<T>. [any thread]
   template <class Make>
   T& local(Make make) {
     const std::uint64_t thread = thread_number();
@@ -37,7 +37,7 @@ class PerThread {
     return object;
   }
 
-  /// Nobody uses any of them.
+  /// Frees all objects. Nobody may use any of them.
   void clear() {
     Node* n = first_.exchange(nullptr);
     while (n) {

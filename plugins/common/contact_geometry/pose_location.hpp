@@ -7,14 +7,14 @@
 
 namespace muro::contact_geometry {
 
-/// Where the poses of a robot's bodies lie in memory. Those of bases lie in one array and those of links in another, in
-/// each mostly in equal distances from robot to robot.
+/// Location of the poses of a robot's bodies in memory. Poses of bases are in one array and poses of links in another,
+/// usually at equal distances from robot to robot.
 struct RobotPoses {
   const double* base = nullptr;
   const double* links = nullptr;  ///< of one of the links
 };
 
-/// Where the pose of one body lies, the same for all robots of a group.
+/// Location of the pose of one body, the same for all robots of a group.
 struct PoseLocation {
   bool of_base = true;
   std::ptrdiff_t offset = 0;  ///< numbers, of a link's pose from RobotPoses::links

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Where friction acts in lines and faces that touch. Collision tells the ends of a line and the corners of a face, and
-// there the normal forces are, so that what tips over tips over its true edge. But friction is spread over all of it:
-// each point stands for a cell of the area, and friction of a cell acts in its middle. So far does the middle of a cell
-// lie from that of all points as the pressure over the area has it, on average.
+// Points where friction acts in lines and faces that touch. Collision gives the ends of a line and the corners of a
+// face. Normal forces act there, so that a body tips over its true edge. But friction is spread over the whole area:
+// each point represents a cell of the area, and friction of a cell acts in its middle. On average, the middles of the
+// cells are as far from the middle of all points as the pressure over the area.
 #pragma once
 
 #include <type_traits>
@@ -11,22 +11,22 @@
 
 namespace muro::contact_geometry {
 
-/// Normals of one patch differ by less than 8 degrees: its cosine.
+/// Cosine of 8 degrees: normals of one patch differ by less.
 inline constexpr double same_direction = 0.99;
-/// m/s: of the ends of a cell about its middle; so slow a spin lets nothing go that rests.
+/// Speed limit (m/s) of the ends of a cell about its middle. A slower spin does not release a body that rests.
 inline constexpr double least_spin = 5e-6;
 
 inline namespace MURO_ISA {
 
 using lane::max, lane::min, lane::select, lane::sqrt, lane::V3;
 
-/// m: from the first of the two ends of a line to the middle of its cell; for the second, the opposite.
+/// Returns the shift (m) from the first end of a line to the middle of its cell; for the second end it is the opposite.
 template <class S>
 MURO_INLINE V3<S> shift_in_line(const V3<S>& first, const V3<S>& second) {
   return (second - first) * S(0.25);
 }
 
-/// Points of a face: their number, sums of their coordinates and of products of these.
+/// Points of a face: their number, the sums of their coordinates and of products of these.
 template <class S>
 struct FacePoints {
   S count{0};
@@ -48,7 +48,7 @@ struct FacePoints {
     yz += select(mask, b.yz, zero), zx += select(mask, b.zx, zero), xy += select(mask, b.xy, zero);
   }
   MURO_INLINE V3<S> middle() const { return sum * (S(1) / count); }
-  /// 1 where they spread alike in all directions of their plane, as the corners of a square; 0 on a line.
+  /// Returns 1 if they spread equally in all directions of their plane, as the corners of a square; 0 on a line.
   MURO_INLINE S roundness() const {
     const S part = S(1) / count;
     const V3<S> m = sum * part;
@@ -60,9 +60,10 @@ struct FacePoints {
   }
 };
 
-/// How far the middles of the cells of a face lie from its middle, of the distance of its points: the mean distance of
-/// an area by that of its corners, which is 1/2 for a line, 0.541 for a square, 2/3 for a disc. `distances`: of the
-/// points from their middle, added up, and `farthest`, the largest of them, m; `is_disc`: the points are on a rim.
+/// Returns the distance of the middles of a face's cells from its middle, as a part of the distance of its points. It
+/// is the mean distance of an area divided by that of its corners: 1/2 for a line, 0.541 for a square, 2/3 for a disc.
+/// `distances` (m): sum over the points, from their middle; `farthest` (m): the largest; `is_disc`: points are on a
+/// rim.
 template <class S>
 MURO_INLINE S share_of_cells(const FacePoints<S>& points, S distances, S farthest, S is_disc) {
   const S corners = select(is_disc > S(0), S(0), S(2) / (points.count * points.count));
@@ -70,8 +71,8 @@ MURO_INLINE S share_of_cells(const FacePoints<S>& points, S distances, S farthes
   return min(share * farthest * points.count / max(distances, S(1e-300)), S(1));
 }
 
-/// The shifts of `count` points of one patch, from `point(i)` to the middle of its cell, to `sink(i, shift)`.
-/// `is_disc`: 1 where the points are on a rim, else 0.
+/// Calls `sink(i, shift)` for `count` points of one patch, with the shift from `point(i)` to the middle of its cell.
+/// `is_disc`: 1 if the points are on a rim, else 0.
 template <class S = double, class Point, class Sink>
 MURO_INLINE void find_shifts(int count, std::type_identity_t<S> is_disc, const Point& point, const Sink& sink) {
   if (count == 2) {

@@ -12,27 +12,27 @@
 
 namespace muro::contact_geometry {
 
-/// Robots of identical structure, which SIMD kernels process side by side.
+/// Robots of identical structure that SIMD kernels process side by side.
 template <class Structure>
 struct RobotGroup {
   Structure structure;
   std::vector<std::uint32_t> robots;  ///< by rising number
 
-  /// Those of a block.
+  /// Returns the robots of a block.
   std::span<const std::uint32_t> in(Range block) const {
     const auto first = std::lower_bound(robots.begin(), robots.end(), block.begin);
     return {first, std::lower_bound(first, robots.end(), block.end)};
   }
 };
 
-/// Where a body's pose lies. The first link that is asked for becomes the reference in `poses`.
+/// Returns the location of a body's pose. The first link that is passed becomes the reference in `poses`.
 inline PoseLocation location_of(RobotPoses& poses, const double* pose) {
   if (pose == poses.base) return {};
   if (!poses.links) poses.links = pose;
   return {.of_base = false, .offset = lane::numbers_between(poses.links, pose)};
 }
 
-/// `robot` has a higher number than all before.
+/// Adds a robot to the group of its structure. `robot` must be higher than all numbers before.
 template <class Structure>
 void add_to_group(std::vector<RobotGroup<Structure>>& groups, Structure structure, std::uint32_t robot) {
   for (RobotGroup<Structure>& group : groups)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pairs of robots: who is near whom, who may touch, and where they do.
+// Pairs of robots: which are near each other, which may touch, and where they do.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,12 +9,12 @@
 
 namespace muro::contact_geometry {
 
-/// A plane reaches everyone.
+/// Whether two robots are near each other. A plane reaches everyone.
 bool PairCollision::are_near(std::uint32_t a, std::uint32_t b) const {
   return robots_[a].has_plane || robots_[b].has_plane || index_->robots[a].bounds.overlaps(index_->robots[b].bounds);
 }
 
-/// In any order.
+/// Finds the near robots, in any order.
 void PairCollision::find_near_robots(std::uint32_t robot) {
   std::vector<Near>& near = near_[robot];
   near.clear();
@@ -23,8 +23,8 @@ void PairCollision::find_near_robots(std::uint32_t robot) {
       near.push_back({overlap.robot, overlap.pair, precedes(robot, overlap.robot), false});
 }
 
-/// Adds how far the robot has moved since the last time, at most: of each body its origin, and the rest by turning. Of
-/// two lengths the sum is at most the root of twice the sum of their squares.
+/// Adds an upper bound of how far the robot has moved since the last time: for each body the way of its origin, and the
+/// way of the rest by turning. The sum of two lengths is at most the root of twice the sum of their squares.
 void PairCollision::follow(std::uint32_t robot, std::uint64_t step) {
   const RobotColliders& colliders = index_->robots[robot];
   const std::uint32_t end = colliders.first + colliders.count;
@@ -61,7 +61,7 @@ void PairCollision::place(std::uint32_t collider) {
   is_placed_[collider] = 1;
 }
 
-/// Those that are close to a near robot, or all where that is not known. Forgets near robots that it cannot touch.
+/// Places the colliders that are close to a near robot, or all if that is unknown. Forgets robots that it cannot touch.
 void PairCollision::place_colliders(std::uint32_t robot) {
   std::vector<Near>& others = near_[robot];
   if (others.empty()) return;
@@ -81,7 +81,7 @@ void PairCollision::place_colliders(std::uint32_t robot) {
   }
 }
 
-/// Of a robot that precedes another.
+/// Collides a robot with another one that it precedes.
 void PairCollision::collide_pair(std::uint32_t robot, const Near& near) {
   Pair& pair = pairs_[near.pair];
   std::vector<PairPoint>& found = points_[robot];
@@ -122,8 +122,8 @@ double PairCollision::distance_bound(const TransformedCollider& a, const Transfo
   return gap_between(a.bounds, b.bounds);
 }
 
-/// Finds the colliders that are closer than the two robots move in some steps, as far as the last one tells. Both
-/// robots have all of theirs placed.
+/// Finds the colliders that are closer than the two robots move in some steps, judged by the last step. All colliders
+/// of both robots must have been placed.
 void PairCollision::find_close(Pair& pair) const {
   constexpr double steps = 16, least = 1e-4;  // -, m
   const RobotColliders &mine = index_->robots[pair.leader], &theirs = index_->robots[pair.other];

@@ -17,7 +17,7 @@ namespace process = parser_process;
 
 namespace {
 
-/// Changes with the file.
+/// Returns a text that changes with the file.
 std::string version_of(const std::filesystem::path& path) {
   struct stat file {};
   if (::stat(path.c_str(), &file) != 0) return "";
@@ -29,7 +29,7 @@ std::string version_of(const std::filesystem::path& path) {
   return version;
 }
 
-/// The answer of heightmap_service.cpp, in place: columns and rows, the number of values, the values.
+/// Reads the answer of heightmap_service.cpp in place: columns and rows, the number of values, the values.
 HeightmapFile file_in(process::SharedBytes answer) {
   struct Header {
     std::uint32_t columns, rows;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the parser process offers to heightmap_file.cpp: the values of a heightmap.
+// Service of the parser process for heightmap_file.cpp: the values of a heightmap.
 #include "plugins/common/parser_process/service.hpp"
 
 #include "heightmap_values.hpp"

@@ -101,7 +101,7 @@ TEST(HeightmapFile, ThatIsNoneIsRefusedInOneSentence) {
        "cannot be");
 }
 
-/// z = 1 + 0.2 x - 0.1 y, whatever the grid.
+/// The plane z = 1 + 0.2 x - 0.1 y on any grid.
 struct Slope {
   std::vector<float> values;
   Heightmap map;

@@ -59,7 +59,7 @@ class HeightmapReader {
     return bytes;
   }
 
-  /// Of TIFF, GeoTIFF and BigTIFF, by their byte order and number.
+  /// Whether the bytes are TIFF, GeoTIFF or BigTIFF, by their byte order and number.
   static bool is_tiff(const std::vector<std::uint8_t>& bytes) {
     const auto begins = [&](std::uint8_t order, std::initializer_list<std::uint8_t> number) {
       return bytes.size() >= 4 && bytes[0] == order && bytes[1] == order &&
@@ -82,7 +82,7 @@ class HeightmapReader {
                   " in each direction; make it smaller");
   }
 
-  /// Black is 0, white is 1. The upper rows are at +y.
+  /// Returns the values: black is 0 and white is 1. The upper rows are at +y.
   std::vector<float> values_of_picture(const std::vector<std::uint8_t>& bytes, Nodes& nodes) const {
     int width = 0, height = 0, channels = 0;
     const int size = int(bytes.size());
@@ -101,7 +101,7 @@ class HeightmapReader {
     return values;
   }
 
-  /// Of MuJoCo's files of height fields: the numbers of rows and columns lead.
+  /// Returns the header of MuJoCo's files of height fields, which begin with the numbers of rows and columns.
   static std::optional<Nodes> header_of(const std::vector<std::uint8_t>& bytes) {
     std::int32_t counts[2] = {};
     if (bytes.size() < sizeof counts) return std::nullopt;

@@ -5,7 +5,7 @@
 
 namespace muro::heightmap {
 
-/// As load(), in this process: for the services of the parser process, which may die of a file.
+/// Reads a file as load() does, but in this process. For services of the parser process, which a file may crash.
 HeightmapFile read_values(const std::string& path);
 
 }  // namespace muro::heightmap

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the parser process offers to those who need pictures: pixels of PNG, JPEG, TGA, BMP and GIF files, by stb_image.
-// A request is the name of the file, for messages too, and its bytes; without bytes they are read from the file.
+// Service of the parser process for pictures: pixels of PNG, JPEG, TGA, BMP and GIF files, by stb_image. A request is
+// the name of the file, also for messages, and its bytes; without bytes they are read from the file.
 #include <stb/stb_image.h>
 
 #include <filesystem>
@@ -18,9 +18,9 @@ using parser_process::Reader;
 using parser_process::Registration;
 using parser_process::Writer;
 
-/// In each direction; what GPUs take as a texture.
+/// Most pixels in each direction; GPUs take this size as a texture.
 constexpr int max_pixels = 16'384;
-/// Bytes of a file; stb counts them with an int.
+/// Most bytes of a file; stb counts them with an int.
 constexpr std::uintmax_t max_size = std::uintmax_t(1) << 30;
 
 std::vector<std::uint8_t> bytes_of(const std::string& path) {

@@ -11,8 +11,8 @@ enum class Format {
   grey16,  ///< a std::uint16_t for each pixel, linear
 };
 
-/// Writes rows of pixels, the upper first, as PNG: the whole file or none.
-/// Throws muro::Error with the path.
+/// Writes rows of pixels, the upper row first, as a PNG file. Writes the whole file or none. Throws muro::Error with
+/// the path.
 void write_png(const std::string& path, Format format, std::uint32_t width, std::uint32_t height, const void* pixels);
 
 }  // namespace muro::image_file

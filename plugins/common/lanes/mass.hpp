@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The mass of a rigid body over any scalar of muro/simd.
+// Mass of a rigid body over any scalar of muro/simd.
 #pragma once
 
 #include "muro/simd/geometry.hpp"
@@ -7,7 +7,7 @@
 namespace muro::lane {
 inline namespace MURO_ISA {
 
-/// A symmetric tensor in the axes of the body (r: body to world), applied to a vector in those of the world.
+/// Applies a symmetric tensor in the axes of the body (r: body to world) to a vector in the axes of the world.
 template <class S>
 MURO_INLINE V3<S> in_world(const M3<S>& r, const M3<S>& tensor, const V3<S>& v) {
   return r * (tensor * transposed_times(r, v));

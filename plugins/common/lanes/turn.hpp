@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cosine and sine of the angles of joints, in fewer operations than a library's for every angle takes: these are a
-// tenth of a step. The same bits for a double and for a lane, as all that lanes calculate.
+// Cosine and sine of the angles of joints. They take a tenth of a step, so this uses fewer operations than a library
+// that takes every angle. A double and a lane give the same bits, as in all that lanes calculate.
 #pragma once
 
 #include "muro/simd/rows.hpp"
@@ -17,12 +17,12 @@ struct Turn {
 
 namespace detail {
 
-/// Of |x| < most_turn: reduced by multiples of a right angle in two parts (Cody and Waite), then by the polynomials of
-/// fdlibm (k_sin.c, k_cos.c); within 1.5 ulp of 1.
+/// Computes the turn by x, |x| < most_turn: reduces x by multiples of a right angle in two parts (Cody and Waite), then
+/// uses the polynomials of fdlibm (k_sin.c, k_cos.c). The error is within 1.5 ulp of 1.
 inline constexpr double most_turn = 1e6;  // rad
 template <class S>
 MURO_INLINE Turn<S> turn_by_less(S x) {
-  constexpr double to_integer = 6755399441055744.0;  // 1.5 * 2^52: what is added to it is rounded
+  constexpr double to_integer = 6755399441055744.0;  // 1.5 * 2^52: a number that is added to it is rounded
   const S magic(to_integer);
   const S k = (x * S(0.63661977236758134308) + magic) - magic;
   const S r = (x - k * S(1.57079632673412561417)) - k * S(6.07710050650619224932e-11), z = r * r;

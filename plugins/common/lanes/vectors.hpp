@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vectors and matrices of the SDK as those of lanes, and back.
+// Conversions of vectors and matrices between the SDK and lanes.
 #pragma once
 
 #include "muro/geometry.hpp"

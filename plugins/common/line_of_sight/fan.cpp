@@ -33,8 +33,8 @@ void Fan::close() {
   for (std::size_t i = 0; i < boxes_.size(); ++i) mark(i);
 }
 
-/// A box that does not hold the centre is seen between two of its corners: `right`, from where one turns left to
-/// `left`. They are marked a little farther apart, so that rounding does not matter.
+/// Marks the directions of a box. A box that does not hold the centre is seen between two of its corners, from `right`
+/// counter-clockwise to `left`. They are marked a little farther apart, so that rounding does not matter.
 void Fan::mark(std::size_t box) {
   const Vec3 low = boxes_[box].box.low - centre_, high = boxes_[box].box.high - centre_;
   const std::uint64_t bit = std::uint64_t(1) << (box % 64);

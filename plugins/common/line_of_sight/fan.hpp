@@ -10,8 +10,8 @@
 
 namespace muro::line_of_sight {
 
-/// Boxes around one point by the directions, seen from above, in which they lie: for many lines that begin in this
-/// point, each of which then looks at few of the boxes. Where there are too many of them for that it is not usable.
+/// Boxes around one point, sorted by the directions in which they lie, seen from above. It is for many lines that begin
+/// in this point, so that each line tests only few boxes. It is not usable if there are too many boxes.
 class Fan {
  public:
   static constexpr std::size_t most_boxes = 1024;
@@ -24,15 +24,15 @@ class Fan {
     if (usable_) boxes_.push_back({box, item});
     return usable_;
   }
-  /// There are no more boxes. [after the last one, before lines]
+  /// Ends the list of boxes. [after the last one, before lines]
   void close();
   void give_up() { usable_ = false; }
 
   const Vec3& centre() const { return centre_; }
   RobotId own() const { return own_; }
   bool is_usable() const { return usable_; }
-  /// Calls visit(item) for the boxes that the segment, from `centre` to `to` or the other way, touches, until one
-  /// returns true; returns whether one did.
+  /// Calls visit(item) for boxes that the segment touches, until one call returns true. Returns whether one did. The
+  /// segment goes from `centre` to `to` or the other way.
   template <class Visit>
   bool any(const Vec3& to, const Segment& segment, Visit visit) const {
     const std::uint64_t* const seen = &seen_[sector_of(to - centre_) * words_];
@@ -50,7 +50,7 @@ class Fan {
     Aabb box;
     std::uint32_t item;
   };
-  /// A number that grows with the bearing of (x, y), from -2 to 2, and by 2 in half a turn.
+  /// Returns a number from -2 to 2 that grows with the bearing of (x, y), by 2 in half a turn.
   static double diamond_angle(double x, double y);
   static std::size_t sector_of(const Vec3& direction);
   void mark(std::size_t box);
@@ -59,7 +59,7 @@ class Fan {
   RobotId own_ = no_robot;
   bool usable_ = true;
   std::vector<Entry> boxes_;
-  std::size_t words_ = 0;                                          ///< of 64 boxes, for each sector
+  std::size_t words_ = 0;                                          ///< words of 64 boxes, for each sector
   std::array<std::uint64_t, sectors* most_boxes / 64> seen_ = {};  ///< by sector: a bit for each box
 };
 

@@ -11,10 +11,10 @@ namespace muro::line_of_sight {
 
 namespace {
 
-/// m: of two devices at the height of a floor, the floor is no obstacle, and the walls on it are.
+/// Height (m) of lines over their ends. For two devices at the height of a floor, only walls on it are obstacles.
 constexpr double lift = 1e-3;
 
-/// The same segment from `a` to `b` as from `b` to `a`, so that rounding is the same in both directions.
+/// Returns the same segment from `a` to `b` as from `b` to `a`, so that rounding is the same in both directions.
 Segment line(const Vec3& a, const Vec3& b) {
   const Vec3 lifted(0, 0, lift);
   const bool is_in_order = std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
@@ -111,7 +111,7 @@ void LineOfSight::look_around(const Vec3& centre, RobotId own, double reach, std
   const double far = reach * (1 + 1e-9) + 2 * lift;
   const Vec3 half = Vec3::Constant(far);
   const Aabb region{centre - half, centre + half};
-  const std::size_t worth_it = 32 * lines;  // boxes: to mark them costs less than a search for each line
+  const std::size_t worth_it = 32 * lines;  // boxes: to mark so many costs less than a search for each line
   std::size_t boxes = 0;
   const auto add = [&](const Aabb& box, std::uint32_t item) {
     const Vec3 nearest = centre.cwiseMax(box.low).cwiseMin(box.high);

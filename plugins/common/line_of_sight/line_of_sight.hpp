@@ -14,12 +14,12 @@
 
 namespace muro::line_of_sight {
 
-/// What stands between two points, by the scene's index: see README.md.
+/// Finds the obstacles between two points, by the scene's index: see README.md.
 class LineOfSight {
  public:
   /// Asks for scene.index and reads the meshes and heightmaps of the scene. [setup]
   void connect(Connector& c);
-  /// To be called in each step, before the first search and by one thread.
+  /// Must be called by one thread in each step, before the first search.
   void begin_step() {
     if (solids_.size() != scene_->colliders.size()) find_solids();
   }
@@ -46,7 +46,7 @@ class LineOfSight {
     Heightmap map;
     double highest;  ///< m
   };
-  /// What a collider that is a mesh or heightmap is made of.
+  /// Content of a collider that is a mesh or heightmap.
   struct Solid {
     const TriangleMesh* mesh = nullptr;
     const Ground* ground = nullptr;
@@ -55,7 +55,7 @@ class LineOfSight {
   void find_solids();
   bool is_cut(const Segment& segment, std::uint32_t collider) const;
   bool is_cut_by_robot(const Segment& segment, std::uint32_t robot) const;
-  /// In a fan, numbers of colliders come before those of robots.
+  /// Returns the number of the first robot in a fan; numbers of colliders come before it.
   std::uint32_t first_robot() const { return std::uint32_t(scene_->colliders.size()); }
 
   In<SceneIndex> scene_;

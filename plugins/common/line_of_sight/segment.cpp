@@ -10,19 +10,19 @@ namespace muro::line_of_sight {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-/// m: shorter ways through a shape are touches.
+/// Length (m) below which a way through a shape is only a touch.
 constexpr double touch = 1e-9;
-/// m: a line that is so little under the ground lies on it.
+/// Depth (m) under the ground down to which a line lies on it.
 constexpr double on_the_ground = 1e-6;
 
-/// The part of the endless line that is inside of an open convex solid; empty where out <= in.
+/// The part of the endless line that is inside an open convex solid; empty if out <= in.
 struct Inside {
   double in = -never, out = never;
 
   static Inside nothing() { return {never, -never}; }
   bool empty() const { return !(in < out); }
   Inside and_in(const Inside& b) const { return {std::max(in, b.in), std::min(out, b.out)}; }
-  /// Of a convex union.
+  /// Returns the part in the union of both, which is convex.
   Inside or_in(const Inside& b) const {
     if (empty()) return b;
     if (b.empty()) return *this;
@@ -30,14 +30,14 @@ struct Inside {
   }
 };
 
-/// Where |start + t way| < half.
+/// Returns the part where |start + t way| < half.
 Inside in_slab(double start, double way, double half) {
   if (way == 0) return std::abs(start) < half ? Inside{} : Inside::nothing();
   const double a = (-half - start) / way, b = (half - start) / way;
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// Where a t^2 + 2 b t + c < 0.
+/// Returns the part where a t^2 + 2 b t + c < 0.
 Inside in_round(double a, double b, double c) {
   if (a == 0) return c < 0 ? Inside{} : Inside::nothing();
   const double discriminant = b * b - a * c;
@@ -97,7 +97,7 @@ struct Grid {
   }
 };
 
-/// Calls visit(t) where `start + t way` is a whole number, for t from `from` to `to`, until one returns true.
+/// Calls visit(t) where `start + t way` is a whole number, for t from `from` to `to`, until one call returns true.
 template <class Visit>
 bool at_whole_numbers(double start, double way, double from, double to, Visit visit) {
   if (way == 0) return false;
@@ -118,7 +118,7 @@ bool passes_through(const Segment& segment, const Shape& shape) {
   return (std::min(inside.out, 1.0) - std::max(inside.in, 0.0)) * segment.way.norm() > touch;
 }
 
-/// Along the segment the ground is linear between the edges of its triangles, so it is enough to look there.
+/// Along the segment the ground is linear between the edges of its triangles, so it is enough to test at these edges.
 bool passes_under(const Segment& segment, const Heightmap& ground, double highest) {
   const auto lifted = [&](Vec3 p) {
     if (const auto at = ground.ground_at(p.x(), p.y())) p.z() = std::max(p.z(), at->height);
@@ -144,7 +144,7 @@ bool passes_under(const Segment& segment, const Heightmap& ground, double highes
          at_whole_numbers(u + v, du + dv, over.in, over.out, is_under);
 }
 
-/// Moeller, Trumbore: Fast, minimum storage ray-triangle intersection, 1997.
+/// Method: Moeller, Trumbore: Fast, minimum storage ray-triangle intersection, 1997.
 bool crosses(const Segment& segment, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, p = segment.way.cross(ac);
   const double determinant = ab.dot(p);

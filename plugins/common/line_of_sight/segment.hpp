@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A straight line between two points, and what it meets: boxes of a hierarchy, convex shapes, heightmaps, triangles.
+// A straight line between two points, and tests of it with boxes of a hierarchy, convex shapes, heightmaps, triangles.
 #pragma once
 
 #include "muro/scene.hpp"
@@ -8,10 +8,10 @@
 
 namespace muro::line_of_sight {
 
-/// From `start` over `start + way`; a place on it is a number from 0 to 1.
+/// A segment from `start` to `start + way`. A place on it is a number from 0 to 1.
 struct Segment {
   Vec3 start, way;  ///< m
-  Vec3 per_way;     ///< 1 / way, and a number near infinity for 0
+  Vec3 per_way;     ///< 1 / way; for 0 a very large number
 
   static Segment along(const Vec3& start, const Vec3& way) {
     const auto inverse = [](double x) { return x == 0 ? 1e300 : 1 / x; };
@@ -19,15 +19,15 @@ struct Segment {
   }
   static Segment between(const Vec3& a, const Vec3& b) { return along(a, b - a); }
   Vec3 end() const { return start + way; }
-  /// In the frame whose pose in the present one is `frame`.
+  /// Returns the segment in the frame whose pose in the present frame is `frame`.
   Segment in(const Pose& frame) const {
     const Quat back = frame.orientation.conjugate();
     return along(back * Vec3(start - frame.position), back * way);
   }
-  /// Whether a part of it is in the box. A segment that runs along a face, and so cuts nothing in the box, may count.
+  /// Whether a part of it is in the box. A segment along a face, which does not cut the inside of the box, may count.
   bool touches(const Aabb& box) const {
     double in = 0, out = 1;
-    const auto narrow = [&](int k) {  // in the form that compilers make minimum and maximum instructions of
+    const auto narrow = [&](int k) {  // in the form that compilers translate to minimum and maximum instructions
       const double a = (box.low[k] - start[k]) * per_way[k], b = (box.high[k] - start[k]) * per_way[k];
       const double first = a < b ? a : b, last = a > b ? a : b;
       in = first > in ? first : in;
@@ -38,8 +38,8 @@ struct Segment {
   }
 };
 
-/// Whether the segment passes through a box, sphere, cylinder or capsule. The segment is in the frame of the shape. A
-/// shape that holds an end of the segment, or is only touched, is not passed through. Other shapes: false.
+/// Whether the segment passes through a box, sphere, cylinder or capsule; false for other shapes. The segment is in the
+/// frame of the shape. It does not pass through a shape that holds one of its ends, or that it only touches.
 bool passes_through(const Segment& segment, const Shape& shape);
 
 /// Whether the segment passes under the surface of a heightmap, in the frame of its shape; `highest` (m) is the highest
@@ -49,8 +49,8 @@ bool passes_under(const Segment& segment, const Heightmap& ground, double highes
 /// Whether the segment crosses a triangle.
 bool crosses(const Segment& segment, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Calls visit(item) for the items of all leaves that the segment touches, until one returns true; returns whether one
-/// did. The leaves' bounds, not those of items, decide.
+/// Calls visit(item) for the items of all leaves that the segment touches, until one call returns true. Returns whether
+/// one did. The bounds of leaves are tested, not those of items.
 template <class Visit>
 bool any_on(const Bvh& tree, const Segment& segment, Visit visit) {
   if (tree.nodes.empty()) return false;
@@ -69,7 +69,7 @@ bool any_on(const Bvh& tree, const Segment& segment, Visit visit) {
   return false;
 }
 
-/// Calls visit(leaf, item) for the items of all leaves that `box` overlaps, as long as it returns true; returns whether
+/// Calls visit(leaf, item) for the items of all leaves that `box` overlaps, as long as it returns true. Returns whether
 /// it always did.
 template <class Visit>
 bool each_leaf(const Bvh& tree, const Aabb& box, Visit visit) {

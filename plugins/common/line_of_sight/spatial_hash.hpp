@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which points are near: square cells in x and y, found by hashing.
+// Search for near points: square cells in x and y, found by hashing.
 #pragma once
 
 #include <algorithm>
@@ -14,19 +14,19 @@
 namespace muro {
 
 /// A spatial hash (Teschner et al.: Optimized spatial hashing for collision detection of deformable objects, VMV 2003)
-/// over columns of square cross-section: x and y choose the cell, z none. Built anew in O(n); keeps its memory. Points
-/// of a cell stand in the order of their numbers.
+/// over columns of square cross-section: x and y choose the cell, z does not. It is built anew in O(n) and keeps its
+/// memory. Points of a cell are in the order of their numbers.
 class SpatialHash {
  public:
-  /// So that building over so many points does not allocate.
+  /// Reserves memory, so that building over `points` points does not allocate.
   void reserve(std::size_t points) {
     entries_.reserve(points);
     cells_.reserve(points);
     starts_.reserve(bucket_count(points) + 1);
   }
 
-  /// Over points (m), numbered from 0; those that are not finite are left out. `cell`: m, > 0, best the radius of the
-  /// searches.
+  /// Builds the hash over points (m), numbered from 0. Omits points that are not finite. `cell` (m, > 0): size of a
+  /// cell, best the radius of the searches.
   void build(std::span<const Vec3> points, double cell) {
     per_cell_ = 1 / cell;
     const std::size_t buckets = bucket_count(points.size());
@@ -47,7 +47,7 @@ class SpatialHash {
   }
 
   /// Calls visit(number of the point, its squared distance in m^2) for each point within `radius` (m) of `centre`, in
-  /// an order that depends on the points alone.
+  /// an order that depends only on the points.
   template <class Visit>
   void each_within(const Vec3& centre, double radius, Visit visit) const {
     if (entries_.empty() || !centre.allFinite()) return;
@@ -97,7 +97,7 @@ class SpatialHash {
   int shift_ = 60;
   std::vector<Entry> entries_;         ///< bucket by bucket
   std::vector<Cell> cells_;            ///< by number of the point
-  std::vector<std::uint32_t> starts_;  ///< [b + 1]: of bucket b in entries_
+  std::vector<std::uint32_t> starts_;  ///< [b + 1]: begin of bucket b in entries_
 };
 
 }  // namespace muro

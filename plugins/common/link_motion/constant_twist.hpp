@@ -8,14 +8,14 @@
 
 namespace muro::constant_twist {
 
-/// Where a body at `pose` is after a motion with a constant twist: `rotation` (rad, axis times angle) and `translation`
-/// (m) are that twist times the duration, in the axes of the body.
+/// Returns the pose of a body at `pose` after a motion with a constant twist. `rotation` (rad, axis times angle) and
+/// `translation` (m): that twist times the duration, in the axes of the body.
 inline Pose advanced(const Pose& pose, const Vec3& rotation, const Vec3& translation) {
   return pose * Pose{screw_integral(rotation) * translation, rotation_of(rotation)};
 }
 
-/// The pose at `fraction` (0..1) of the screw motion from `a` to `b`. Their orientations differ by less than half a
-/// turn.
+/// Returns the pose at `fraction` (0..1) of the screw motion from `a` to `b`. Their orientations differ by less than
+/// half a turn.
 inline Pose interpolated(const Pose& a, const Pose& b, double fraction) {
   const Vec3 rotation = rotation_vector_of(a.orientation.conjugate() * b.orientation);
   const Vec3 displacement = a.orientation.conjugate() * Vec3(b.position - a.position);

@@ -7,21 +7,22 @@
 
 namespace muro::link_motion {
 
-/// How a frame moves in the world: all in world axes, at the frame's origin.
+/// Motion of a frame in the world. All values are in world axes, at the frame's origin.
 struct FrameMotion {
   Pose pose;
   Twist twist;
   Twist acceleration;  ///< m/s^2, rad/s^2
 
-  /// That of a frame which stands at `origin` in this one.
+  /// Returns the motion of a frame that is fixed at `origin` in this one.
   FrameMotion at(const Pose& origin) const {
     FrameMotion m = moved_by(pose.orientation * origin.position);
     m.pose.orientation = pose.orientation * origin.orientation;
     return m;
   }
 
-  /// Behind a joint about, or along, `axis` (unit, in this frame) which stands at `position`. The terms are those of
-  /// Featherstone, Rigid Body Dynamics Algorithms (2008), section 3.3, with the derivative of the velocity of a point.
+  /// Returns the motion of the frame behind a joint about, or along, `axis` (unit, in this frame) at `position`. The
+  /// terms are those of Featherstone, Rigid Body Dynamics Algorithms (2008), section 3.3, with the derivative of the
+  /// velocity of a point.
   FrameMotion behind(JointKind kind, const Vec3& axis, double position, double velocity, double rate) const {
     const Vec3 axis_in_world = pose.orientation * axis, speed = axis_in_world * velocity;
     if (kind == JointKind::revolute) {
@@ -38,7 +39,7 @@ struct FrameMotion {
   }
 
  private:
-  /// With its origin `arm` (m, world axes) farther.
+  /// Returns the motion of this frame with its origin moved by `arm` (m, world axes).
   FrameMotion moved_by(const Vec3& arm) const {
     const Vec3 &w = twist.angular, sweep = w.cross(arm);
     FrameMotion m = *this;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Against differences of poses: velocity and acceleration follow from the path alone.
+// Compares motions with differences of poses: velocity and acceleration follow from the path alone.
 #include "frame_motion.hpp"
 
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 namespace muro::link_motion {
 namespace {
 
-/// A base on a curve that turns about a tilted axis, a joint that turns about y, one behind it that shifts along x, and
-/// a device there: all smooth in t (s).
+/// Returns the motion of a device: on a base on a curve that turns about a tilted axis, a joint turns about y, and a
+/// joint behind it shifts the device along x. All are smooth in t (s).
 FrameMotion at(double t) {
   const Vec3 axis = Vec3(1, 2, 2) / 3;
   FrameMotion base;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How any frame of a robot moves, from its base and the joints on the way there.
+// Motion of any frame of a robot, from its base and the joints on the way there.
 #pragma once
 
 #include <vector>
@@ -10,21 +10,22 @@
 
 namespace muro::link_motion {
 
-/// What is asked for; each includes those before it.
+/// Values that are needed; each includes those before it.
 enum class Order : std::uint8_t { pose, twist, acceleration };
 
-/// The position, velocity and acceleration of a joint, its own or, where nothing moves a mimic joint but that it
-/// follows, those of its leader.
+/// Position, velocity and acceleration of a joint. If nothing moves a mimic joint but the joint that it follows, they
+/// are those of its leader.
 class JointMotion {
  public:
   JointMotion() = default;
-  /// Binds what `order` needs of the joint that leads to `link`. `start`: rad or m, where nothing moves it. [setup]
+  /// Binds what `order` needs of the joint that leads to `link`. `start` (rad or m): used if nothing moves it. [setup]
   JointMotion(Connector& c, const RobotView& robot, std::uint32_t link, double start, Order order);
 
   double position() const { return offset_ + multiplier_ * *position_; }
   double velocity() const { return multiplier_ * *velocity_; }
   double acceleration() const { return multiplier_ * *acceleration_; }
-  /// When all have connected: throws Error where it is moved, but no motion tells its acceleration. [setup]
+  /// Must be called after all have connected: throws Error if it is moved, but no motion gives its acceleration.
+  /// [setup]
   void check_acceleration(const Connector& c) const;
 
  private:
@@ -37,16 +38,17 @@ class JointMotion {
 class LinkMotion {
  public:
   LinkMotion() = default;
-  /// Of the frame at `origin` in that of link `link`. Binds what `order` needs. [setup]
+  /// Binds what `order` needs for the frame at `origin` in that of link `link`. [setup]
   LinkMotion(Connector& c, const RobotView& robot, std::uint32_t link, const Pose& origin, Order order);
 
-  /// Whether it is of a frame.
+  /// Whether it has a frame.
   explicit operator bool() const { return bool(base_pose_); }
 
-  /// When all have connected: throws Error where an acceleration is wanted that no motion of the robot tells. [setup]
+  /// Must be called after all have connected: throws Error if no motion of the robot gives a wanted acceleration.
+  /// [setup]
   void check(const Connector& c) const;
 
-  /// What `order` has not asked for is zero. [step]
+  /// Returns the present motion. Values that `order` does not include are zero. [step]
   FrameMotion now() const {
     static const Twist none;
     FrameMotion m{*base_pose_, twist_ ? *twist_ : none, acceleration_ ? *acceleration_ : none};

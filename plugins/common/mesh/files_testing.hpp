@@ -11,7 +11,7 @@
 
 namespace muro::mesh::testing {
 
-/// A box from `low` to `high`, looking outward.
+/// Makes a box from `low` to `high` that faces outward.
 inline Mesh box(const Vec3& low, const Vec3& high) {
   Mesh m;
   for (int i = 0; i < 8; ++i)
@@ -34,7 +34,7 @@ inline std::string stl_text(const Mesh& m) {
   return out.str();
 }
 
-/// `header`: the first of the 80 bytes that say nothing.
+/// Makes a binary STL file. `header`: the first of its 80 bytes without a meaning.
 inline std::string stl_binary(const Mesh& m, const std::string& header = "binary") {
   std::string out = header;
   out.resize(80, ' ');
@@ -60,7 +60,7 @@ inline std::string obj_text(const Mesh& m) {
   return out.str();
 }
 
-/// COLLADA 1.4: one geometry, instanced by nodes with the transforms given (elements of <node>).
+/// Makes a COLLADA 1.4 file: one geometry, instanced by nodes with the transforms given (elements of <node>).
 inline std::string dae_text(const Mesh& m, const std::string& up_axis, const std::string& metres,
                             const std::vector<std::string>& transforms = {""}) {
   std::ostringstream out;
@@ -83,7 +83,7 @@ inline std::string dae_text(const Mesh& m, const std::string& up_axis, const std
   return out.str();
 }
 
-/// glTF 2.0 with its buffer inside.
+/// Makes a glTF 2.0 file with its buffer inside.
 inline std::string gltf_text(const Mesh& m) {
   std::string bytes;
   for (const Vec3& v : m.vertices)

@@ -45,7 +45,7 @@ class QhullRun {
   bool failed_ = false;
 };
 
-/// Adds a facet with its vertices. `numbers`: those of the points among the vertices of the hull, -1: not there yet.
+/// Adds a facet with its vertices. `numbers`: by point, its number among the vertices of the hull; -1: not there yet.
 void add_face(qhT* qh, facetT* facet, std::span<const Vec3> points, std::vector<std::int64_t>& numbers, Hull& hull) {
   Hull::Face face;
   face.first = std::uint32_t(hull.corners.size());
@@ -54,7 +54,7 @@ void add_face(qhT* qh, facetT* facet, std::span<const Vec3> points, std::vector<
   const int count = qh_setsize(qh, vertices);
   face.count = std::uint32_t(count);
   face.offset = -std::numeric_limits<double>::infinity();
-  for (int i = count; i-- > 0;) {  // they are in clockwise order
+  for (int i = count; i-- > 0;) {  // Qhull has them in clockwise order
     const auto* const v = static_cast<const vertexT*>(SETelem_(vertices, i));
     const auto p = std::size_t(qh_pointid(qh, v->point));
     if (numbers[p] < 0) {
@@ -97,7 +97,7 @@ Hull hull_or_plate(std::span<const Vec3> points) {
     centre += p / double(points.size());
   }
   const double size = points.empty() ? 0 : (box.high - box.low).norm();
-  Mat3 spread = Mat3::Zero();  // its axis of the least is the normal of the plane
+  Mat3 spread = Mat3::Zero();  // its axis of least spread is the normal of the plane
   for (const Vec3& p : points) spread += (p - centre) / size * ((p - centre) / size).transpose();
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
   const Vec3 normal = axes.eigenvectors().col(0);

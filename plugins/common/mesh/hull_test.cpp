@@ -14,7 +14,7 @@ namespace {
 using namespace muro;
 using namespace muro::mesh;
 
-/// Closed, convex, looking outward, around all points, with flat faces.
+/// Expects a hull that is closed, convex, facing outward and around all points, with flat faces.
 void expect_hull_of(const Hull& hull, const std::vector<Vec3>& points) {
   const Mesh surface = surface_of(hull);
   EXPECT_TRUE(is_closed(surface));

@@ -27,7 +27,7 @@ process::Answer ask(const char* service, const std::string& path, const Vec3& sc
       request.bytes());
 }
 
-/// The triangles of an answer, all corners of which are among `vertices`.
+/// Reads the triangles of an answer. All their corners must be among `vertices`.
 std::vector<Triangle> triangles_of(process::Reader& answer, std::size_t vertices) {
   std::vector<Triangle> triangles = answer.list<Triangle>();
   for (const Triangle& t : triangles)

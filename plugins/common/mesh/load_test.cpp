@@ -15,7 +15,7 @@ using namespace muro::mesh::testing;
 const Vec3 low(-1, 2, 0.5), high(1, 5, 4.5);
 constexpr double volume = 2 * 3 * 4;
 
-/// A box with these corners: closed, looking outward.
+/// Expects a box with these corners: closed, facing outward.
 void expect_box(const Mesh& m, const Vec3& from, const Vec3& to, const std::string& what) {
   EXPECT_EQ(m.vertices.size(), 8u) << what;
   EXPECT_EQ(m.triangles.size(), 12u) << what;
@@ -130,7 +130,7 @@ TEST(Load, SaysWhatIsWrongWithAFileAndWhatIsAllowed) {
   EXPECT_EQ(message_of(good), "no error");
 }
 
-/// Binary glTF that says that it is 2 GB long.
+/// Returns a binary glTF file that claims to be 2 GB long.
 std::string glb_of_two_gigabytes() {
   std::string bytes = "glTF";
   for (const std::uint32_t word : {2u, 0x7fffffffu, 0x7ffffff0u, 0x4e4f534au})
@@ -138,7 +138,7 @@ std::string glb_of_two_gigabytes() {
   return bytes + "{}";
 }
 
-/// COLLADA that says that it has four billion coordinates.
+/// Returns a COLLADA file that claims to have four billion coordinates.
 std::string dae_of_many_numbers(const Mesh& m) {
   std::string text = dae_text(m, "Z_UP", "1");
   const std::size_t count = text.find("count=\"", text.find("<float_array")) + 7;

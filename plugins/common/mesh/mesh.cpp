@@ -14,7 +14,7 @@ bool before(const Vec3& a, const Vec3& b) {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
-/// For each vertex the first one that is equal to it.
+/// Returns for each vertex the first one that is equal to it.
 std::vector<std::uint32_t> first_equal_vertices(const std::vector<Vec3>& vertices) {
   std::vector<std::uint32_t> order(vertices.size()), first(vertices.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -27,7 +27,7 @@ std::vector<std::uint32_t> first_equal_vertices(const std::vector<Vec3>& vertice
 }
 
 bool has_area(const Mesh& m, const Triangle& t) {
-  constexpr double min_ratio = 1e-14;  // twice the area by the square of the longest side
+  constexpr double min_ratio = 1e-14;  // of twice the area to the square of the longest side
   if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
   const Vec3 u = m.vertices[t[1]] - m.vertices[t[0]], v = m.vertices[t[2]] - m.vertices[t[0]];
   return u.cross(v).norm() > min_ratio * std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()});

@@ -20,13 +20,14 @@ namespace muro::mesh {
 
 namespace {
 
-/// Formats that define which axis is up, which Assimp then makes y; the axes of other formats are kept.
+/// Whether the format defines which axis is up. Assimp then makes it y. It keeps the axes of other formats.
 bool has_y_up(const std::string& path) {
   const std::string extension = MeshFile::extension_of(path);
   return extension == ".dae" || extension == ".gltf" || extension == ".glb";
 }
 
-/// Files as Assimp opens them, those that a mesh names too: no devices and pipes, and what is large may take longer.
+/// Files that Assimp opens, also those that a mesh names. Refuses devices and pipes, and allows more time for large
+/// files.
 class Files final : public Assimp::DefaultIOSystem {
  public:
   Assimp::IOStream* Open(const char* file, const char* mode) override {
@@ -34,7 +35,7 @@ class Files final : public Assimp::DefaultIOSystem {
     const auto size = std::filesystem::file_size(file, code);
     if (code || !std::filesystem::is_regular_file(file, code) || std::string_view(mode).find('w') != std::string::npos)
       return nullptr;
-    // 10 to 60 times their size in memory for sound files
+    // valid files take 10 to 60 times their size in memory
     if (opened_.insert(file).second) parser_process::allow(parser_process::allowance_for(size, 200, 2));
     return DefaultIOSystem::Open(file, mode);
   }
@@ -43,14 +44,14 @@ class Files final : public Assimp::DefaultIOSystem {
   std::set<std::string> opened_;
 };
 
-/// The first bytes of a file.
+/// Returns the first bytes of a file.
 std::string beginning_of(const std::string& path) {
   std::string begin(64, '\0');
   std::ifstream(path, std::ios::binary).read(begin.data(), std::streamsize(begin.size()));
   return begin;
 }
 
-/// What Assimp says of a file that it cannot read.
+/// Returns the reason that Assimp gives for a file that it cannot read.
 std::string reason_of(const std::string& text) {
   if (text.find("bad_a") != text.npos || text.find("bad alloc") != text.npos || text.find("vector::") != text.npos)
     return "it says that it holds more than fits into memory";
@@ -75,7 +76,7 @@ MeshFile::MeshFile(const std::string& path, const Vec3& scale, unsigned unused, 
     throw fail("has a scale of " + number_text(scale.x()) + " " + number_text(scale.y()) + " " +
                number_text(scale.z()) + "; each factor must be finite and not 0");
   if (is_lfs_pointer(beginning_of(path))) throw fail(std::string(is_lfs_pointer_text));
-  importer_.SetIOHandler(new Files);  // which the importer owns
+  importer_.SetIOHandler(new Files);  // the importer owns it
   importer_.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, int(unused));
   importer_.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, 40);
   const aiScene* const scene = importer_.ReadFile(path, aiProcess_RemoveComponent | aiProcess_Triangulate | steps);

@@ -13,16 +13,16 @@ namespace muro::mesh {
 
 class MeshFile {
  public:
-  /// Reads all components but those in `unused` (aiComponent, or-ed), with faces as triangles and with the
+  /// Reads all components except those in `unused` (aiComponent, or-ed), with faces as triangles and with the
   /// post-processing of `steps` (aiProcess, or-ed). Throws muro::Error with the path.
   MeshFile(const std::string& path, const Vec3& scale, unsigned unused, unsigned steps);
 
-  /// Calls visit(mesh, at) for each mesh of each node; `at`: from the mesh to the axes of mesh.hpp, scaled.
+  /// Calls visit(mesh, at) for each mesh of each node. `at`: transform from the mesh to the axes of mesh.hpp, scaled.
   template <class Visit>
   void each_mesh(Visit visit) const {
     walk(*scene().mRootNode, root_, visit);
   }
-  /// The extension of a path, with its dot, in lower case.
+  /// Returns the extension of a path, with its dot, in lower case.
   static std::string extension_of(const std::string& path);
   const aiScene& scene() const { return *importer_.GetScene(); }
 

@@ -10,7 +10,7 @@
 namespace muro::mesh {
 namespace {
 
-/// All but positions and faces.
+/// All components except positions and faces.
 constexpr unsigned unused_by_collision = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
                                          aiComponent_COLORS | aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS |
                                          aiComponent_ANIMATIONS | aiComponent_TEXTURES | aiComponent_LIGHTS |
@@ -25,7 +25,7 @@ void add(const aiMesh& m, const Eigen::Matrix4d& at, Mesh& out) {
   }
   for (unsigned f = 0; f < m.mNumFaces; ++f) {
     const aiFace& face = m.mFaces[f];
-    if (face.mNumIndices != 3) continue;  // points and lines
+    if (face.mNumIndices != 3) continue;  // a point or a line
     Triangle t{first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]};
     if (is_mirrored) std::swap(t[1], t[2]);
     out.triangles.push_back(t);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What the parser process does for load.cpp, with Assimp.
+// Reading of meshes in the parser process for load.cpp, with Assimp.
 #pragma once
 
 #include "submesh.hpp"
 
 namespace muro::mesh {
 
-/// As load() and load_submeshes(), in this process. `path` is absolute.
+/// Reads a file as load() and load_submeshes() do, but in this process. `path` is absolute.
 Mesh read_mesh(const std::string& path, const Vec3& scale);
 std::vector<Submesh> read_submeshes(const std::string& path, const Vec3& scale);
 

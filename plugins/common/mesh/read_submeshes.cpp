@@ -21,7 +21,8 @@ constexpr unsigned unused_by_pictures = aiComponent_TANGENTS_AND_BITANGENTS | ai
                                         aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS | aiComponent_LIGHTS |
                                         aiComponent_CAMERAS;
 
-/// The texture file of a material: at its path relative to the mesh, or by its name beside the mesh or in textures/.
+/// Finds the texture file of a material: at its path relative to the mesh, or by its name beside the mesh or in
+/// textures/.
 std::string find_texture(const std::string& mesh, std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');
   if (name.rfind("file://", 0) == 0) name.erase(0, 7);
@@ -33,7 +34,7 @@ std::string find_texture(const std::string& mesh, std::string name) {
   return {};
 }
 
-/// glTF has colours in linear light.
+/// Whether the file is glTF, which has colours in linear light.
 bool is_gltf(const std::string& path) {
   const std::string extension = MeshFile::extension_of(path);
   return extension == ".gltf" || extension == ".glb";
@@ -65,7 +66,7 @@ void set_material(Submesh& submesh, const aiScene& scene, const aiMaterial& mate
         .setOnes();  // glTF multiplies colour and texture; in other formats the colour beside a texture means nothing
 }
 
-/// `at`: from the mesh to the result.
+/// `at`: transform from the mesh to the result.
 Submesh geometry_of(const aiMesh& m, const Eigen::Matrix4d& at, const std::string& path) {
   Submesh submesh;
   const Mat3 linear = at.topLeftCorner<3, 3>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the parser process offers to load.cpp.
+// Services of the parser process for load.cpp.
 #include "plugins/common/parser_process/service.hpp"
 
 #include "read_mesh.hpp"

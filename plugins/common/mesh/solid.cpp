@@ -5,7 +5,7 @@ namespace muro::mesh {
 
 Inertia solid_inertia(const Mesh& surface, double density) {
   if (surface.vertices.empty()) return {};
-  const Vec3 origin = surface.vertices[0];  // near the solid: what is summed stays small
+  const Vec3 origin = surface.vertices[0];  // near the solid, so that the sums stay small
   double volume = 0;
   Vec3 first_moment = Vec3::Zero();
   Mat3 second_moment = Mat3::Zero();  // integral of x x^T

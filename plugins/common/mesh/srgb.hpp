@@ -7,7 +7,7 @@
 
 namespace muro::mesh {
 
-/// From linear light (0..1) to the sRGB value (0..1): IEC 61966-2-1.
+/// Converts linear light (0..1) to the sRGB value (0..1): IEC 61966-2-1.
 inline double srgb_of(double light) {
   return light <= 0.0031308 ? 12.92 * light : 1.055 * elementary::pow(light, 1 / 2.4) - 0.055;
 }

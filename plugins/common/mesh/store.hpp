@@ -14,16 +14,16 @@ namespace muro::mesh {
 /// request. References stay valid as long as the store lives. [setup]
 class Store {
  public:
-  /// As load().
+  /// Returns a mesh as load() does.
   const Mesh& mesh(const std::string& path, const Vec3& scale);
-  /// Its convex hull. Throws muro::Error when the mesh is flat.
+  /// Returns the convex hull of a mesh. Throws muro::Error if the mesh is flat.
   const Hull& hull(const std::string& path, const Vec3& scale);
-  /// The same, and where the mesh is flat a thin plate. Throws muro::Error when it lies on a line.
+  /// Returns the convex hull of a mesh; if it is flat, a thin plate. Throws muro::Error if it lies on a line.
   const Hull& hull_or_plate(const std::string& path, const Vec3& scale);
 
  private:
   struct Entry {
-    std::string error;  ///< of a file that cannot be read: it may have taken long
+    std::string error;  ///< error of a file that cannot be read, since reading may have taken long
     Mesh mesh;
     std::optional<Hull> hull, plate;
   };

@@ -22,8 +22,8 @@ struct Submesh {
   std::vector<std::uint8_t> texture_bytes;  ///< of an embedded texture: a PNG or JPEG file
 };
 
-/// Reads a file as load() does, but vertices are not joined, and each submesh has the material that the file gives it
-/// (the diffuse or base colour). Vertices without a normal get one, common to faces that meet at less than 40 degrees.
+/// Reads a file as load() does, but does not join vertices. Each submesh has the material that the file gives it (the
+/// diffuse or base colour). Vertices without a normal get one, common to faces that meet at less than 40 degrees.
 /// Textures are searched beside the file. [setup]
 std::vector<Submesh> load_submeshes(const std::string& path, const Vec3& scale);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stands in for hull.cpp where Qhull was missing when muro was configured.
+// Replaces hull.cpp if Qhull was missing when muro was configured.
 #include "hull.hpp"
 #include "muro/algorithm.hpp"
 

@@ -8,15 +8,15 @@
 
 namespace muro::model_file {
 
-/// Builds what hangs on the base, depth first: n children make n - 1 forks, each nested in the second branch of the one
-/// before. `add` builds one child, with what leads to it, and returns its children in order.
+/// Builds the children of the base, depth first. n children make n - 1 forks, each nested in the second branch of the
+/// fork before. `add` builds one child, with what leads to it, and returns its children in order.
 template <class Child, class Add>
 void build_tree(RobotBuilder& builder, const std::vector<Child>& children_of_base, Add add) {
   struct Task {
     enum { open_fork, close_branch, add_child } kind;
     std::optional<Child> child = std::nullopt;
   };
-  // A stack of its own: a chain of links may be longer than the call stack is deep.
+  // An explicit stack, because a chain of links may be longer than the call stack is deep.
   std::vector<Task> stack;
   const auto push = [&stack](const std::vector<Child>& children) {
     std::vector<Task> tasks;

@@ -10,7 +10,7 @@ class TagScanner {
  public:
   explicit TagScanner(std::string_view text) : text_(text) {}
 
-  /// The location of the next start tag and its name; false at the end.
+  /// Finds the location of the next start tag and its name. Returns false at the end.
   bool next(Location& location, std::string_view& name) {
     while (true) {
       const std::size_t open = text_.find('<', at_);
@@ -46,7 +46,7 @@ class TagScanner {
     const std::size_t found = text_.find(end, at_);
     advance(found == std::string_view::npos ? text_.size() : found + end.size());
   }
-  /// Past the `>` that closes the tag; one within quotes does not.
+  /// Moves past the `>` that closes the tag; a `>` within quotes does not.
   void skip_tag() {
     char quote = 0;
     std::size_t i = at_;

@@ -12,12 +12,12 @@ namespace muro::model_file {
 
 using Element = tinyxml2::XMLElement;
 
-/// An XML file as a tree of elements that knows where each of them stands.
+/// An XML file as a tree of elements, with the location of each element.
 class Document {
  public:
-  /// False, with the error and where it is, when `text` is not well-formed.
+  /// Parses a text. Returns false, with the error and its location, if `text` is not well-formed.
   bool parse(const std::string& text, Location& location, std::string& error);
-  /// Null when there is none.
+  /// Returns the root element; null if there is none.
   Element* root() { return xml_.RootElement(); }
   std::size_t element_count() const { return locations_.size(); }
 
@@ -26,10 +26,10 @@ class Document {
   std::vector<Location> locations_;
 };
 
-/// Where the element begins; nowhere for one that was added later.
+/// Returns where the element begins; nowhere for an element that was added later.
 Location location_of(const Element& element);
 
-/// The children named `name` (null: all), collected first, so that they may be deleted in a loop over them.
+/// Returns the children named `name` (null: all). They are collected first, so that a loop over them may delete them.
 std::vector<Element*> children(Element& parent, const char* name = nullptr);
 
 }  // namespace muro::model_file

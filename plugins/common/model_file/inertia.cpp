@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// A shape of density 1 about its own centre, in its own axes; mass 0 when it has no known volume.
+/// Returns the inertia of a shape of density 1 about its own centre, in its own axes; mass 0 if it has no known volume.
 Inertia unit_density_inertia(const Shape& shape) {
   const Vec3& s = shape.size;
   const auto symmetric = [](double mass, double xx, double yy, double zz) {
@@ -60,7 +60,7 @@ Inertia uniform_density_inertia(std::span<const Shape> shapes, double mass) {
 TensorCheck check_tensor(const Mat3& tensor) {
   const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
   TensorError error = TensorError::none;
-  // as written so that what is not a number is an error
+  // in this form, a value that is not a number is an error
   if (!(moments[0] > 1e-9 * moments[2]))
     error = TensorError::not_positive_definite;
   else if (moments[0] + moments[1] < 0.999 * moments[2])

@@ -10,12 +10,12 @@
 
 namespace muro::model_file {
 
-/// The spring of a joint, which robots have as a position drive without damping: effort = stiffness (reference - q).
+/// The spring of a joint. Robots have it as a position drive without damping: effort = stiffness (reference - q).
 struct JointSpring {
   double stiffness = 0;  ///< N m/rad or N/m, above 0
   double reference = 0;  ///< rad or m
 
-  /// Constants of the last joint of the builder.
+  /// Sets constants of the last joint of the builder.
   void add_to(RobotBuilder& builder) const {
     builder.set(keys::joint_drive, std::uint32_t(DriveMode::position));
     builder.set(keys::joint_drive_stiffness, stiffness);

@@ -8,12 +8,12 @@
 
 namespace muro::model_file {
 
-/// Elements of a file that are not used. The same element in several places is one message.
+/// Elements of a file that are not used. If an element is in several places, there is one message.
 class LeftOut {
  public:
-  /// `element`: as the message names it, "`<sensor>` in `<link>`"; `reason` ends the sentence.
+  /// `element`: its name in the message, such as "`<sensor>` in `<link>`"; `reason` ends the sentence.
   void add(Severity severity, const std::string& element, const std::string& reason, FileLocation at);
-  /// Tells all, in the order in which they were found, each with its lines; then forgets them.
+  /// Reports all in the order in which they were found, each with its lines. Then forgets them.
   void report(Problems& problems);
 
  private:

@@ -30,7 +30,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// The file beside `path` whose name differs in case only; the first by name if there are several.
+/// Returns the file beside `path` whose name differs only in case; the first by name if there are several.
 std::optional<fs::path> in_other_case(const fs::path& path) {
   const std::string wanted = lower_case(path.filename().string());
   std::optional<fs::path> found;
@@ -53,7 +53,7 @@ std::vector<fs::path> paths_in(const char* variable) {
   return paths;
 }
 
-/// %20 and the like (RFC 3986, section 2.1).
+/// Decodes %20 and similar (RFC 3986, section 2.1).
 std::string percent_decoded(std::string_view text) {
   std::string decoded;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -70,7 +70,7 @@ std::string percent_decoded(std::string_view text) {
   return decoded;
 }
 
-/// Where Gazebo looks for models and for what they consist of.
+/// Variables of paths where Gazebo searches models and their parts.
 constexpr const char* gazebo_paths[] = {"GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH"};
 
 /// Whether the folder is the package `name` by its package.xml, whatever the folder is called.
@@ -89,7 +89,7 @@ bool is_package(const fs::path& folder, const std::string& name) {
   return found.substr(0, found.find_last_not_of(blanks) + 1) == name;
 }
 
-/// The package in `path` or a few levels below it, as ROS finds it: workspaces hold repositories that hold packages.
+/// Returns the package in `path` or a few levels below it, as ROS finds it: workspaces hold repositories with packages.
 std::optional<fs::path> package_below(const fs::path& path, const std::string& name) {
   constexpr int deepest = 3;
   constexpr std::size_t most = 1000;  // folders
@@ -111,7 +111,7 @@ std::optional<fs::path> package_below(const fs::path& path, const std::string& n
   return std::nullopt;
 }
 
-/// The folders that may be the package `name`.
+/// Returns the folders that may be the package `name`.
 std::vector<fs::path> package_folders(const std::string& name, const fs::path& folder, const Packages& packages) {
   if (const auto given = packages.find(name); given != packages.end()) return {given->second};
   std::vector<fs::path> found;
@@ -137,14 +137,14 @@ std::vector<fs::path> package_folders(const std::string& name, const fs::path& f
 }
 
 struct Candidates {
-  std::vector<fs::path> paths;           ///< everything the name may mean, best first
-  std::vector<fs::path> elsewhere = {};  ///< where it lies when the model was written on another computer
+  std::vector<fs::path> paths;           ///< all that the name may mean, best first
+  std::vector<fs::path> elsewhere = {};  ///< places of the file if the model was written on another computer
   std::string package = {};
   std::vector<fs::path> package_folders = {};
 };
 
-/// The ends of a path, longest first, beside the model and up to two folders above it: of /home/me/arm/meshes/hand.stl,
-/// meshes/hand.stl beside the model's folder is the fourth to look at.
+/// Returns the ends of a path, longest first, beside the model and up to two folders above it. Of
+/// /home/me/arm/meshes/hand.stl, meshes/hand.stl beside the model's folder is the fourth that is tried.
 std::vector<fs::path> ends_beside(const fs::path& folder, const fs::path& path) {
   std::vector<fs::path> found;
   fs::path tail = path.relative_path();
@@ -197,7 +197,7 @@ Candidates candidates(std::string name, const fs::path& folder, const Packages& 
   return found;
 }
 
-/// What is looked for.
+/// Kind of file to find.
 enum class Wanted { mesh, file, file_or_folder };
 
 MeshPath find(std::string_view name, const fs::path& folder, const Packages& packages, Wanted wanted) {

@@ -11,13 +11,13 @@
 
 namespace muro::model_file {
 
-/// The shortest text that reads back as `number`, with a decimal point in every locale.
+/// Returns the shortest text that reads back as `number`, with a decimal point in every locale.
 inline std::string shortest(double number) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, number).ptr};
 }
 
-/// Texts and numbers, one after the other.
+/// Joins texts and numbers, one after the other.
 template <class... Values>
 std::string concat(const Values&... values) {
   std::string result;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Joints that mimic others have no limits of position in muro: a leader takes its followers along. A message says where
-// a model has limits for them that this passes.
+// Joints that mimic others have no limits of position in muro: a leader takes its followers along. A message reports
+// where a model has limits for them that this exceeds.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 
 namespace muro::model_file {
 
-/// rad or m.
+/// Range of a joint, rad or m.
 struct JointRange {
   double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
 
-  /// Where a joint goes whose position is `offset` + `multiplier` times one of these.
+  /// Returns the range of a joint whose position is `offset` + `multiplier` times that of this one.
   JointRange followed(double multiplier, double offset) const {
     if (multiplier == 0) return {offset, offset};
     const double first = offset + multiplier * lower, second = offset + multiplier * upper;
@@ -25,8 +25,8 @@ struct JointRange {
   }
 };
 
-/// What to say of a joint that follows `leader`, which takes it through `reached`, where its own limits are `own`;
-/// nothing where it stays within them, to what rounding in files leaves.
+/// Returns the message on a joint that follows `leader`, which takes it through `reached`, while its own limits are
+/// `own`. Returns nothing if it stays within them, apart from rounding in files.
 inline std::optional<std::string> passed_mimic_limits(const std::string& joint, const std::string& leader,
                                                       const JointRange& reached, const JointRange& own) {
   constexpr double rounding = 1e-3;  // rad or m

@@ -7,9 +7,9 @@ namespace muro::model_file {
 
 namespace {
 
-constexpr std::size_t most_shown = 4;  // of names, and of lines for each
+constexpr std::size_t most_shown = 4;  // names, and lines for each name
 
-/// " (also in lines 4, 9)", or nothing.
+/// Returns " (also in lines 4, 9)", or nothing.
 std::string other_lines(const std::vector<FileLocation>& places) {
   if (places.size() < 2) return {};
   std::string text;

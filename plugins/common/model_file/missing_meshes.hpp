@@ -9,11 +9,11 @@
 
 namespace muro::model_file {
 
-/// Collects the meshes of a model that are not found, so that they are told at once: one message for all of a package,
+/// Collects the meshes of a model that are not found, to report them together: one message for all meshes of a package,
 /// and one for all that are named by paths.
 class MissingMeshes {
  public:
-  /// `at`: of the element that names it. `to_touch`: it is a collision shape.
+  /// `at`: place of the element that names it. `to_touch`: it is a collision shape.
   void add(const std::string& name, const FileLocation& at, const MeshPath& missing, bool to_touch);
   void report(Problems& problems) const;
 

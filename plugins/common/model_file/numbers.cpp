@@ -11,7 +11,7 @@ namespace muro::model_file {
 
 namespace {
 
-/// One number; on failure `error`.
+/// Returns one number; sets `error` on failure.
 double parse_number(std::string_view word, std::string& error) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;

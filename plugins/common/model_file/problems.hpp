@@ -11,13 +11,13 @@
 
 namespace muro::model_file {
 
-/// Where something is in a file; lines and columns count from 1, 0 when unknown.
+/// Location in a file; lines and columns count from 1, and are 0 when unknown.
 struct Location {
   int line = 0;
   int column = 0;
 };
 
-/// Where something is in the file that is read, or in one that it includes.
+/// Location in the file that is read, or in one that it includes.
 struct FileLocation {
   std::string file;  ///< empty: the file that is read
   int line = 0;
@@ -30,16 +30,16 @@ struct FileLocation {
   bool operator<(const FileLocation& b) const {
     return std::tie(file, line, column) < std::tie(b.file, b.line, b.column);
   }
-  /// "12", or "wheel.sdf:12", for a list of locations.
+  /// Returns "12", or "wheel.sdf:12", for a list of locations.
   std::string line_text() const { return file.empty() ? concat(line) : concat(file, ":", line); }
 };
 
-/// Reports what is wrong with a model to the host, and keeps whether the model is still usable.
+/// Reports problems of a model to the host, and keeps whether the model is still usable.
 class Problems {
  public:
   using Report = std::function<void(Severity, std::string_view, int line, int column)>;
   explicit Problems(Report report) : report_(std::move(report)) {}
-  /// To a RobotBuilder or a WorldBuilder.
+  /// Returns an object that reports to a RobotBuilder or a WorldBuilder.
   template <class Builder>
   static Problems reported_to(Builder& builder) {
     return Problems([&builder](Severity severity, std::string_view text, int line, int column) {
@@ -47,11 +47,11 @@ class Problems {
     });
   }
 
-  /// The robot is what the file describes, but the user may want to know.
+  /// Reports something that the user may want to know, while the robot is what the file describes.
   void note(const FileLocation& at, const std::string& text) { report(Severity::note, at, text); }
-  /// Something was left out or replaced; the text says by what.
+  /// Reports something that was omitted or replaced; the text says by what.
   void warning(const FileLocation& at, const std::string& text) { report(Severity::warning, at, text); }
-  /// No robot can be made of the file; the text says what is allowed.
+  /// Reports that no robot can be made of the file; the text says what is allowed.
   void error(const FileLocation& at, const std::string& text) { report(Severity::error, at, text); }
   void report(Severity severity, const FileLocation& at, const std::string& text) {
     found_error_ = found_error_ || severity == Severity::error;

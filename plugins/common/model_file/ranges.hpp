@@ -7,12 +7,12 @@
 
 namespace muro::model_file {
 
-/// Numbers of the element or attribute `name`: sizes that are too small for any shape become 0, which is no size.
+/// Sets sizes that are too small for any shape to 0, which is no size. `name`: of the element or attribute.
 void drop_tiny_sizes(std::string_view name, std::span<double> values);
 
-/// What is wrong with numbers of the element or attribute `name` of a URDF or SDFormat file ("mass", "xyz", "pose"), by
-/// the ranges of muro/base/limits.hpp; it completes a sentence that begins with the text. Empty: nothing is, or no
-/// range is known.
+/// Returns what is wrong with numbers of the element or attribute `name` of a URDF or SDFormat file ("mass", "xyz",
+/// "pose"), by the ranges of muro/toolkit/limits.hpp. It completes a sentence that begins with the text. Empty: nothing
+/// is wrong, or no range is known.
 std::string range_problem(std::string_view name, std::span<const double> values);
 
 }  // namespace muro::model_file

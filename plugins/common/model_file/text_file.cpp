@@ -17,7 +17,7 @@ constexpr std::uintmax_t largest_file = 64u << 20;
 
 unsigned byte_at(std::string_view text, std::size_t i) { return static_cast<unsigned char>(text[i]); }
 
-/// Index of the first byte that is not part of well-formed UTF-8 (Unicode 15, table 3-7); size when all are.
+/// Returns the index of the first byte that is not well-formed UTF-8 (Unicode 15, table 3-7); the size if all are.
 std::size_t first_bad_byte(std::string_view text) {
   std::size_t i = 0;
   while (i < text.size()) {

@@ -7,22 +7,22 @@
 
 namespace muro::model_file {
 
-/// The bytes of a file of at most 64 MiB. Throws muro::Error when it cannot be read; `kind` says in messages what
-/// kind of file it should be: ".urdf".
+/// Returns the bytes of a file of at most 64 MiB. Throws muro::Error if it cannot be read. `kind`: the kind of file
+/// that it should be, for messages: ".urdf".
 std::string load_file(const std::string& path, const std::string& kind);
 
-/// What is wrong with the bytes of a file.
+/// A problem with the bytes of a file.
 struct TextProblem {
   Location location;
   std::string text;  ///< empty when nothing is wrong
 };
 struct DecodingProblems {
   TextProblem error = {};    ///< there is no text
-  TextProblem warning = {};  ///< there is, but maybe not as it was meant
+  TextProblem warning = {};  ///< there is a text, but maybe not the intended one
 };
 
-/// `bytes` of an XML file, which in messages is called `kind` and begins with <`root`>, become text in UTF-8: a
-/// byte-order mark goes, and bytes that are not UTF-8 are read as ISO-8859-1, with a warning. UTF-16, binary, empty
+/// Converts `bytes` of an XML file to text in UTF-8. Messages call the file `kind`; it begins with <`root`>. A
+/// byte-order mark is removed. Bytes that are not UTF-8 are read as ISO-8859-1, with a warning. UTF-16, binary, empty
 /// and other files are errors.
 DecodingProblems decode(std::string& bytes, const std::string& kind, const std::string& root);
 

@@ -16,15 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the client library may be: beside the library or program that asks, in MURO_PLUGIN_PATH, and in the user's
-/// folder.
+/// Returns folders of the client library: beside the library or program that asks, in MURO_PLUGIN_PATH, and in the
+/// user's folder.
 std::vector<fs::path> folders() {
   std::vector<fs::path> found;
   Dl_info here{};
   if (dladdr(reinterpret_cast<const void*>(&folders), &here) != 0 && here.dli_fname) {
     std::error_code none;
     fs::path folder = fs::canonical(here.dli_fname, none).parent_path();
-    // a program knows itself by the name it was started with
+    // dladdr gives for a program only the name it was started with
     if (none) folder = fs::canonical("/proc/self/exe", none).parent_path();
     found.push_back(folder / "parser");
     found.push_back(folder.parent_path() / "lib" / "muro" / "parser");
@@ -40,7 +40,7 @@ std::vector<fs::path> folders() {
   return found;
 }
 
-/// The functions of the client library; where there is none, the reason.
+/// Functions of the client library; if there is none, the reason.
 struct ClientLibrary {
   AskFunction ask = nullptr;
   ShareFunction share = nullptr;
@@ -65,7 +65,7 @@ ClientLibrary load_client() {
         client.missing = file.string() + " cannot be loaded: " + missing;
         return client;
       }
-      // never closed: it holds the process that all libraries share
+      // never closed, because it holds the process that all libraries share
       void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
       if (find(library, ask_symbol, client.ask) && find(library, share_symbol, client.share) &&
           find(library, release_symbol, client.release))
@@ -89,7 +89,7 @@ const ClientLibrary& client_library() {
   return client;
 }
 
-/// Room on the heap.
+/// Memory on the heap.
 struct HeapSink : Sink {
   std::unique_ptr<std::byte[]> bytes{};
   std::size_t size = 0;

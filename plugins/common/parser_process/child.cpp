@@ -26,7 +26,7 @@ bool Child::start(const std::string& program, std::string& reason) {
   const int code =
       process_.start({.program = program,
                       .files = {{output_.get(), 1}, {output_.get(), 2}, {allowance_.get(), process_allowance}},
-                      // no home, so that libraries keep no files there, and no language
+                      // without a home, so that libraries keep no files there, and without a language
                       .environment = {"HOME=/dev/null", "LC_ALL=C"}});
   return code == 0 || fail(code);
 }

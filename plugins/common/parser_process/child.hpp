@@ -8,24 +8,24 @@
 
 namespace muro::parser_process {
 
-/// A parser process, with what it has printed and what it may take.
+/// A parser process, with what it has printed and its allowance.
 class Child {
  public:
-  /// False, with the reason, when it cannot be started.
+  /// Starts the process. Returns false, with the reason, if it cannot be started.
   bool start(const std::string& program, std::string& reason);
-  /// Whether it was started by this process and not ended since.
+  /// Whether this process has started it and not ended it since.
   bool is_there() const { return bool(process_); }
 
-  /// False when it has died, or closed its end.
+  /// Transfers bytes. Returns false if the process has died, or closed its end.
   bool send(const void* data, std::uint64_t size);
   bool receive(void* data, std::uint64_t size);
 
-  /// How it ended.
+  /// The way in which it ended.
   struct Death : ChildProcess::End {
     std::string last_words;  ///< the last line that it printed
-    Allowance allowed;       ///< for the request, at last
+    Allowance allowed;       ///< last allowance of the request
   };
-  /// Ends it where it has not ended yet.
+  /// Ends the process if it has not ended yet.
   Death end();
   /// Forgets what it has printed so far.
   void clear_output();

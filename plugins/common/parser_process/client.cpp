@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The client library: one parser process for all libraries of a program, which find each other here.
+// The client library: one parser process for all libraries of a program, which share it here.
 #include <signal.h>
 
 #include <cmath>
@@ -19,13 +19,13 @@ namespace muro::parser_process {
 
 namespace {
 
-/// A number as a user reads it.
+/// Returns a number in a form for users.
 std::string rounded(double number) {
   const auto tenths = std::llround(number * 10);
   return std::to_string(tenths / 10) + (tenths % 10 ? "." + std::to_string(tenths % 10) : "");
 }
 
-/// Room on the heap for an answer that is kept.
+/// Memory on the heap for an answer that is kept.
 struct Kept : Sink {
   std::unique_ptr<std::byte[]> bytes{};
   std::uint64_t size = 0;
@@ -62,7 +62,7 @@ class Client {
       }
       shared_[key] = found = kept;
     }
-    latest_ = found;  // scenes are set up by one reader after the other
+    latest_ = found;  // kept, because the readers of a scene ask one after the other
     std::erase_if(shared_, [](const auto& entry) { return entry.second.expired(); });
     answer = {found->bytes.get(), found->size, new Handle(found)};
     return Ending::answered;
@@ -70,7 +70,7 @@ class Client {
 
  private:
   Ending ask_process(std::string_view service, const void* request, std::uint64_t size, Sink& sink) {
-    // A process that nobody has asked for some time ends by itself, maybe just now.
+    // A process that was idle for some time ends on its own, maybe right now.
     for (const bool again : {false, true}) {
       if (!child_.is_there() && !start()) return tell(Ending::no_process, reason_, sink);
       child_.clear_output();
@@ -82,7 +82,7 @@ class Client {
     return Ending::died;
   }
 
-  /// Of the program, beside this library.
+  /// Returns the path of the program, beside this library.
   static std::string program() { return (std::filesystem::path(own_folder()) / program_file).string(); }
 
   bool start() {
@@ -101,7 +101,7 @@ class Client {
     return false;
   }
 
-  /// False when the process has ended.
+  /// Returns false if the process has ended.
   bool exchange(std::string_view service, const void* request, std::uint64_t size, Sink& sink, Ending& ending) {
     const RequestHeader header{service.size(), size};
     if (!child_.send(&header, sizeof header) || !child_.send(service.data(), service.size()) ||
@@ -143,7 +143,7 @@ class Client {
 };
 
 Client& client() {
-  // lives until the program has ended, as threads may ask until then
+  // lives until the program has ended, because threads may ask until then
   static auto& all = *new Client;
   return all;
 }

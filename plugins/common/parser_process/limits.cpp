@@ -14,17 +14,17 @@ namespace muro::parser_process {
 
 namespace {
 
-/// Of real time to processor time: a busy machine, a slow disk.
+/// Ratio of real time to processor time, for a busy machine or a slow disk.
 constexpr double patience = 20;
 
 struct State {
   bool active = false;
-  std::uint64_t used = 0;  ///< bytes, at the beginning
+  std::uint64_t used = 0;  ///< bytes at the beginning of the request
   Allowance sum;
 };
 State state;
 
-/// What a user has set, or else `value`.
+/// Returns what a user has set, or else `value`.
 double setting(const char* variable, double value) {
   const char* const text = std::getenv(variable);
   const double set = text ? std::strtod(text, nullptr) : 0;
@@ -43,7 +43,7 @@ void apply() {
   const double seconds = is_sanitized ? 10 * state.sum.seconds : state.sum.seconds;
   set_timer(ITIMER_PROF, seconds);
   set_timer(ITIMER_REAL, patience * seconds);
-  // for the client, should this process die
+  // for the client, if this process dies
   if (pwrite(process_allowance, &state.sum, sizeof state.sum, 0) < 0) return;
 }
 

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// For the parser process: bounds of memory and time for one request.
+// Bounds of memory and time for one request, in the parser process.
 #pragma once
 
 #include "protocol.hpp"
 
 namespace muro::parser_process {
 
-/// From here to end_limits, the process may take `base`, or what the user has set instead, and what allow() adds,
-/// beside what it has now; where it takes more it ends. Not with a sanitizer: no
-/// bound of memory, and ten times as long.
+/// Limits the process until end_limits. Beside what it has now it may take `base`, or what the user has set instead,
+/// and what allow() adds. If it takes more, it ends. With a sanitizer there is no bound of memory, and the time is ten
+/// times as long.
 void begin_limits(const Allowance& base);
 void end_limits();
 
-/// For those who read: adds what a file just opened may need. Does nothing outside of begin_limits and end_limits.
+/// Adds what a file just opened may need. Readers call it. Does nothing outside of begin_limits and end_limits.
 __attribute__((visibility("default"))) void allow(const Allowance& more);
 
-/// MiB, and seconds for one MiB.
+/// Returns `factor` times `bytes` of memory, and `seconds` for each MiB of them.
 constexpr Allowance allowance_for(std::uint64_t bytes, std::uint64_t factor, double seconds) {
   return {bytes * factor, double(bytes) / (1 << 20) * seconds};
 }

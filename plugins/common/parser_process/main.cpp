@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parser process: reads files that others wrote, for a program that is not to suffer from them. Its client starts
-// it; it ends when its client does, or has asked for nothing for a while.
+// The parser process: reads files of others, to protect a program from errors in them. Its client starts it. It ends
+// when its client ends, or has sent no request for a while.
 #include <dlfcn.h>
 #include <malloc.h>
 #include <poll.h>
@@ -19,7 +19,7 @@
 #include "service.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
-/// In place of the bound of memory, which the sanitizer's own memory would pass.
+/// Replaces the bound of memory, which the sanitizer's own memory would exceed.
 extern "C" const char* __asan_default_options() {
   return "hard_rss_limit_mb=4096:max_allocation_size_mb=2048:allocator_may_return_null=1";
 }
@@ -36,8 +36,8 @@ namespace {
 
 constexpr Allowance base{std::uint64_t(512) << 20, 5};
 constexpr int idle_milliseconds = 20'000;
-/// Bytes that are left of requests, since libraries lose memory when they fail: from the one on they are given back
-/// where that is possible, from the other on a new process is better.
+/// Bytes that remain from requests, because libraries lose memory when they fail. Above the first number they are given
+/// back if possible; above the second a new process is better.
 constexpr long large_remainder = 64L << 20, largest_remainder = 512L << 20;
 
 [[noreturn]] void out_of_memory() { _exit(exit_out_of_memory); }
@@ -68,7 +68,7 @@ void serve(const Service& service, std::span<const std::byte> request) {
     send_frame(Frame::refusal, refusal.data(), refusal.size());
 }
 
-/// False where there is none of that name beside the program.
+/// Loads a module. Returns false if there is none of that name beside the program.
 bool load_module(const std::string& word) {
   std::error_code code;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", code);
@@ -117,11 +117,11 @@ int main() {
                stderr);
     return 2;
   }
-  const rlimit largest_file{rlim_t(1) << 29, rlim_t(1) << 29};  // what it prints, and models in memory
+  const rlimit largest_file{rlim_t(1) << 29, rlim_t(1) << 29};  // for what it prints, and for models in memory
   setrlimit(RLIMIT_FSIZE, &largest_file);
   signal(SIGXFSZ, SIG_IGN);
   std::set_new_handler(&out_of_memory);
-  as_child::end_with_parent();  // without a thread it ends with its request
+  as_child::end_with_parent();  // if there is no thread, the process ends with its request
   const Hello hello = Hello::ours();
   as_child::send(&hello, sizeof hello);
   const long at_start = resident_bytes();

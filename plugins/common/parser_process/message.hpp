@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Values as bytes, for two programs of one build.
+// Conversion of values to bytes, for two programs of one build.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace muro::parser_process {
 
 class Writer {
  public:
-  /// Of a type that may be copied byte by byte and holds no address.
+  /// Appends a value of a type that may be copied byte by byte and holds no address.
   template <class T>
   void value(const T& v) {
     append(&v, sizeof v);
@@ -37,7 +37,7 @@ class Writer {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads in the order of writing. Throws muro::Error when there is less than was asked for.
+/// Reads in the order of writing. Throws muro::Error if there is less than requested.
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}

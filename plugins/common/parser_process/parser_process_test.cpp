@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Against a parser process that hangs, crashes and eats memory on request (services_testing.cpp), which lies where this
-// program looks first.
+// Tests with a parser process that hangs, crashes and uses up memory on request (services_testing.cpp). It is in the
+// folder that this program searches first.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For tests: a parser process that does what it is told, good or bad.
+// A parser process for tests. It does what the request names, good or bad.
 #include <unistd.h>
 
 #include <csignal>

@@ -20,7 +20,7 @@ bool is_name_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
 }
 
-/// A finite number, or none.
+/// Returns a finite number, or nothing.
 std::optional<double> number_in(std::string_view text) {
   double x = 0;
   const char* const end = text.data() + text.size();
@@ -43,7 +43,7 @@ struct PartLine {
     while (at < text.size() && is_name_character(text[at])) ++at;
     return text.substr(from, at - from);
   }
-  /// In quotes, or up to the comment; false where a quote is open.
+  /// Reads a value, in quotes or up to the comment. Returns false if a quote is not closed.
   bool value(std::string& to) {
     if (text[at] == '"') {
       const std::size_t end = text.find('"', at + 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files of parameters with their source: what a data sheet or a measurement says of a real device.
+// Files of parameters with their source: values of a real device from a data sheet or a measurement.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace muro {
 
-/// A part file that was read: lines `name: value`, in sections that a line `name:` opens and whose lines are indented.
-/// `#` begins a comment. A value is a number, numbers in brackets, or a text, in quotes or without. It is a subset of
-/// YAML.
+/// A part file that was read. It has lines `name: value`, in sections: a line `name:` opens a section, and its lines
+/// are indented. `#` begins a comment. A value is a number, numbers in brackets, or a text, in quotes or without. The
+/// format is a subset of YAML.
 class PartFile {
  public:
   struct Entry {
@@ -21,26 +21,26 @@ class PartFile {
     int line = 0, column = 0;  ///< of the value
     int name_column = 0;
   };
-  /// Throws Error with `name`, line and column for anything else, and for a name that stands twice in a section.
+  /// Throws Error with `name`, line and column for any other text, and for a name that is in a section twice.
   static PartFile parse(std::string_view text, std::string name);
-  /// Throws Error when the file cannot be read, or is larger than 1 MiB.
+  /// Throws Error if the file cannot be read, or is larger than 1 MiB.
   static PartFile read(const std::string& path);
 
-  /// How messages call it.
+  /// Returns the name in messages.
   const std::string& name() const { return name_; }
   const std::vector<Entry>& entries() const { return entries_; }
   std::vector<std::string> sections() const;
-  /// None where it is not there.
+  /// Returns an entry; null if it is not there.
   const Entry* find(std::string_view section, std::string_view name) const;
-  /// As a finite number; Error where it is none.
+  /// Returns the value as a finite number. Throws Error if it is not one.
   std::optional<double> number(std::string_view section, std::string_view name) const;
-  /// The value as one finite number, or as several, "[1, 2]"; Error where it is neither.
+  /// Returns the value, one finite number or several, "[1, 2]". Throws Error if it is neither.
   std::vector<double> numbers(const Entry& entry) const;
-  /// "FILE:LINE:COLUMN: ", of the value.
+  /// Returns "FILE:LINE:COLUMN: " of the value.
   std::string place(const Entry& entry) const;
-  /// The same, of the name.
+  /// Returns "FILE:LINE:COLUMN: " of the name.
   std::string place_of_name(const Entry& entry) const;
-  /// Throws Error for an entry of a section (or before all) whose name is not one of `known`.
+  /// Throws Error for an entry of a section (or before all sections) whose name is not one of `known`.
   void check_names(std::string_view section, std::span<const std::string_view> known) const;
 
  private:
@@ -48,14 +48,14 @@ class PartFile {
   std::vector<Entry> entries_;
 };
 
-/// A part file that a plugin brings with it.
+/// A part file that a plugin contains.
 struct ReadyPart {
   std::string_view name;  ///< of the file, without extension
   std::string_view text;
 };
 
-/// The part that a scenario names: one of `ready`, else the file `path` (absolute). A name with a slash or a dot is a
-/// file. Throws Error for a name that is neither, with those that are ready.
+/// Returns the part that a scenario names: one of `ready`, else the file `path` (absolute). A name with a slash or a
+/// dot is a file. Throws Error for a name that is neither, and lists those that are ready.
 PartFile find_part(std::string_view name, const std::string& path, std::span<const ReadyPart> ready);
 
 }  // namespace muro

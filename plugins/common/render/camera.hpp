@@ -9,10 +9,10 @@
 
 namespace muro::render {
 
-/// A point at x forward, y left, z up in the camera's frame is seen at column cx - fx y/x and row cy - fy z/x, counted
-/// from the upper left corner of the image, in pixels; the first pixel reaches from 0 to 1.
+/// A pinhole camera. A point at x forward, y left, z up in its frame is seen at column cx - fx y/x and row cy - fy z/x,
+/// counted from the upper left corner of the image, in pixels. The first pixel reaches from 0 to 1.
 struct Camera {
-  Pose pose;                            ///< in the world; it looks along x
+  Pose pose;                            ///< in the world; the camera looks along x
   std::uint32_t width = 0, height = 0;  ///< pixels
   double fx = 0, fy = 0;                ///< pixels
   double cx = 0, cy = 0;                ///< pixels
@@ -20,7 +20,7 @@ struct Camera {
   double far = 1000;                    ///< m along the axis; nothing farther is seen
   RobotId ignored_robot = no_robot;     ///< a robot that is not seen
 
-  /// With square pixels and the axis in the middle. `fov`: horizontal, rad, below pi.
+  /// Returns a camera with square pixels and the axis in the middle. `fov`: horizontal, rad, below pi.
   static Camera of_fov(std::uint32_t width, std::uint32_t height, double fov) {
     Camera c;
     c.width = width;
@@ -32,7 +32,7 @@ struct Camera {
   }
 };
 
-/// Rows: right, up, forward, in the axes of the world.
+/// Returns the camera's axes in those of the world. Rows: right, up, forward.
 inline Mat3 axes_of(const Camera& c) {
   const Mat3 r = c.pose.orientation.toRotationMatrix();
   Mat3 axes;

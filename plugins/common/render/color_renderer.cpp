@@ -49,7 +49,7 @@ ColorRenderer::~ColorRenderer() {
   glDeleteVertexArrays(1, &empty_array_);
 }
 
-/// A parallel projection along the light of the sun, of what is near the camera, so that the map is fine there.
+/// Draws a parallel projection along the sunlight of what is near the camera, so that the map is fine there.
 void ColorRenderer::draw_shadows(const Camera& camera, const Daylight& light) {
   const Vec3 forward = camera.pose.orientation * Vec3::UnitX(), towards = light.to_sun;
   const Vec3 right = Vec3(-towards.y(), towards.x(), 0).normalized(), up = towards.cross(right);

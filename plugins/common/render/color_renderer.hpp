@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Colour images. To be made and used while the context is current.
+// Rendering of colour images. Must be made and used while the context is current.
 #pragma once
 
 #include "gpu_scene.hpp"
@@ -12,7 +12,7 @@ namespace muro::render {
 struct Daylight {
   Vec3 to_sun = Vec3(0.35, -0.5, 0.79).normalized();
   bool shadows = true;
-  double shadow_range = 25;  ///< m, around what the camera looks at, within which shadows are drawn
+  double shadow_range = 25;  ///< m, around the place that the camera sees; shadows are drawn within it
 };
 
 class ColorRenderer {

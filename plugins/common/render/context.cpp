@@ -36,7 +36,7 @@ struct Candidate {
   bool software = false;
 };
 
-/// GPUs first.
+/// Returns all devices, GPUs first.
 std::vector<Candidate> candidates() {
   const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   if (!has(client, "EGL_EXT_device_enumeration") && !has(client, "EGL_EXT_device_base")) return {};
@@ -55,7 +55,7 @@ std::vector<Candidate> candidates() {
 }  // namespace
 
 Context::Context(Device device) : handles_(std::make_unique<Handles>()) {
-  // Threads of llvmpipe's own cost more than they give in pictures of sensors, and muro has threads itself.
+  // llvmpipe's own threads cost more than they save in pictures of sensors, and muro has threads of its own.
   if (device != Device::gpu) setenv("LP_NUM_THREADS", "0", 0);
   std::string tried;
   for (const Candidate& c : candidates()) {

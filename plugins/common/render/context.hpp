@@ -7,7 +7,7 @@
 
 namespace muro::render {
 
-/// What renders.
+/// The device that renders.
 enum class Device {
   any,       ///< the first GPU that can, else the processor
   gpu,       ///< the first GPU that can
@@ -17,13 +17,13 @@ enum class Device {
 /// An OpenGL 4.5 core context. It is current in one thread at a time, while a Current of it lives there.
 class Context {
  public:
-  /// Throws muro::Error with what was tried and what to install where no device offers one. [setup]
+  /// Throws muro::Error if no device offers a context, with what was tried and what to install. [setup]
   explicit Context(Device device);
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// The name that the driver reports.
+  /// Returns the name that the driver reports.
   const std::string& renderer() const { return renderer_; }
   bool is_software() const { return software_; }
 
@@ -35,7 +35,7 @@ class Context {
   bool software_ = false;
 };
 
-/// Makes a context current in this thread during its lifetime, and the one before current again afterwards.
+/// Makes a context current in this thread during its lifetime, and the previous one current again afterwards.
 class Current {
  public:
   explicit Current(const Context& context);

@@ -13,7 +13,7 @@ namespace muro::render {
 
 namespace {
 
-/// A point as the vertex shader gets it: relative to the camera.
+/// A point in the form of the vertex shader: relative to the camera.
 struct PointData {
   std::array<float, 3> position;
   std::array<float, 4> color;

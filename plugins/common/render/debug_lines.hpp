@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Debug drawing: lines and points over an image, which no sensor sees. To be made and used while the context is
+// Debug drawing: lines and points over an image, which no sensor sees. Must be made and used while the context is
 // current.
 #pragma once
 
@@ -20,7 +20,7 @@ class DebugLines {
   DebugLines& operator=(const DebugLines&) = delete;
 
   void clear();
-  /// Positions in the world, m; `color` 0..1; `alpha`: 0 (not seen) .. 1.
+  /// Adds a line. Positions in the world, m; `color` 0..1; `alpha`: 0 (not seen) .. 1.
   void add_line(const Vec3& from, const Vec3& to, const Vec3& color, double alpha);
   void add_point(const Vec3& at, const Vec3& color);
   /// Draws into the last target; nearer surfaces hide lines and points.

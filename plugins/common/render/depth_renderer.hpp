@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Depths, and the labels of objects. To be made and used while the context is current.
+// Rendering of depths and of the labels of objects. Must be made and used while the context is current.
 #pragma once
 
 #include "gpu_scene.hpp"
@@ -12,7 +12,7 @@ class DepthRenderer {
  public:
   explicit DepthRenderer(GpuScene& scene);
 
-  /// Draws what the camera sees into the rows of the target from `top` on, as many as the camera has. To be called
+  /// Draws what the camera sees into the rows of the target from `top` on, as many as the camera has. Must be called
   /// after the target's begin().
   void draw(const Camera& camera, const DepthTarget& target, std::uint32_t top = 0);
 

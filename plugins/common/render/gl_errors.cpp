@@ -31,7 +31,7 @@ std::string text_of(GLenum error) {
 void check_gl(const char* doing) {
   const GLenum first = glGetError();
   if (first == GL_NO_ERROR) return;
-  for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {  // a context that is lost says so without end
+  for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {  // a lost context reports errors without end
   }
   throw Error("OpenGL failed to " + std::string(doing) + ": " + text_of(first));
 }

@@ -3,8 +3,8 @@
 
 namespace muro::render {
 
-/// Throws Error when calls of OpenGL have failed since the last time. `doing`: the end of "OpenGL failed to ...". To be
-/// called where the driver has to finish anyway: when something was made or is read back.
+/// Throws Error if calls of OpenGL have failed since the last check. `doing`: the end of "OpenGL failed to ...". Should
+/// be called where the driver has to finish anyway: after something was made or is read back.
 void check_gl(const char* doing);
 
 }  // namespace muro::render

@@ -87,7 +87,7 @@ void GpuScene::upload_surfaces() {
   glNamedBufferStorage(index_buffer_, GLsizeiptr(indices.size() * sizeof(std::uint32_t)), indices.data(), 0);
 }
 
-/// Where the vertex shader finds its inputs.
+/// Describes where the vertex shader finds its inputs.
 void GpuScene::describe_attributes() {
   glCreateVertexArrays(1, &vertex_array_);
   glVertexArrayElementBuffer(vertex_array_, index_buffer_);

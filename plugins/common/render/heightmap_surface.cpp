@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t cells_of_a_part = 128;  ///< in each direction
 
-/// By the heights of the nodes beside it.
+/// Returns the normal at a node, by the heights of the nodes beside it.
 Vec3 normal_at(const Heightmap& h, std::uint32_t column, std::uint32_t row) {
   const std::uint32_t left = column - (column > 0), right = column + (column + 1 < h.columns);
   const std::uint32_t down = row - (row > 0), up = row + (row + 1 < h.rows);
@@ -31,7 +31,7 @@ Vertex vertex_at(const Heightmap& h, std::uint32_t column, std::uint32_t row, co
   return v;
 }
 
-/// Cells from (column, row) up to, and without, (column_end, row_end).
+/// Makes a part of the cells from (column, row) up to, and without, (column_end, row_end).
 HeightmapPart ground_part(const Heightmap& h, std::uint32_t column, std::uint32_t row, std::uint32_t column_end,
                           std::uint32_t row_end) {
   HeightmapPart part;

@@ -16,7 +16,7 @@ struct Image {
   static Image white() { return {1, 1, {255, 255, 255, 255}}; }
   /// Reads PNG, JPEG, TGA, BMP or GIF. Throws muro::Error with the path.
   static Image from_file(const std::string& path);
-  /// The same from the bytes of such a file; `name` is for messages.
+  /// Reads the bytes of such a file; `name` is for messages.
   static Image from_bytes(std::span<const std::uint8_t> bytes, const std::string& name);
 };
 

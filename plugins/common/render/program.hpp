@@ -6,7 +6,7 @@
 
 namespace muro::render {
 
-/// A program of a vertex and a fragment shader. To be made and used while its context is current.
+/// A program of a vertex and a fragment shader. Must be made and used while its context is current.
 class Program {
  public:
   /// Throws muro::Error with the compiler's log.

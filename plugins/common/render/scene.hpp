@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is drawn of the world: surfaces, their textures, and their instances on bodies.
+// The drawn parts of the world: surfaces, their textures, and their instances on bodies.
 #pragma once
 
 #include <map>
@@ -16,9 +16,9 @@ namespace muro::render {
 
 using scene_bodies::SceneBody;
 
-/// Which shapes of a body are drawn.
+/// Choice of the shapes of a body that are drawn.
 enum class ShapeSource {
-  visual,     ///< for cameras: `visual.shapes`, or `collision.shapes` where a body has none
+  visual,     ///< for cameras: `visual.shapes`, or `collision.shapes` of a body without these
   collision,  ///< for range sensors: `collision.shapes`, without materials
 };
 
@@ -35,22 +35,22 @@ struct Instance {
   Pose pose() const { return body.pose() * origin; }
 };
 
-/// A solid shape on a body: to decide whether a sensor is inside of it.
+/// A solid shape on a body, used to decide whether a sensor is inside it.
 struct SolidShape {
   Shape shape;
   SceneBody body;
   double radius = 0;      ///< m, of a bounding sphere about the origin of the body; infinite for a plane or a heightmap
-  Heightmap heightmap{};  ///< of one
+  Heightmap heightmap{};  ///< only of a heightmap
 
-  /// Whether it contains a point of the world (m); a mesh contains none, a heightmap what is below its surface.
+  /// Whether it contains a point of the world (m). A mesh contains none, a heightmap those below its surface.
   bool contains(const Vec3& point) const;
 };
 
 class Scene {
  public:
   /// Finds all shapes and binds the poses of their bodies. Circles become polygons that lie at most `tolerance` (m)
-  /// inside of them. Textures, visual meshes and heightmaps that cannot be read are left out with a warning; one that
-  /// is also a collision shape is refused: see mesh::refuse_collision_mesh. [setup]
+  /// inside them. Textures, visual meshes and heightmaps that cannot be read are omitted with a warning. One that is
+  /// also a collision shape is refused: see mesh::refuse_collision_mesh. [setup]
   void connect(Connector& c, ShapeSource source, double tolerance);
 
   const std::vector<Surface>& surfaces() const { return surfaces_; }
@@ -67,27 +67,27 @@ class Scene {
   void add_shape(Connector& c, const Shape& shape, Instance instance, ShapeSource source);
   void add_mesh(Connector& c, const Shape& shape, Instance instance, ShapeSource source);
   void add_heightmap(Connector& c, const Shape& shape, Instance instance, std::int32_t texture);
-  /// What is in the file of a heightmap. Null where it cannot be read, which has been reported.
+  /// Returns the content of the file of a heightmap; null if it cannot be read, which has then been reported.
   const heightmap::HeightmapFile* file_of_heightmap(Connector& c, const Shape& shape, ObjectId body);
-  /// Refuses a file that a body collides with; of others, which are not drawn, it warns once.
+  /// Refuses a file that a body collides with. Warns once about other files, which are then not drawn.
   void report_unreadable(Connector& c, const Shape& shape, ObjectId body, const std::string& reason);
   std::vector<ColoredSurface> load_mesh(Connector& c, const Shape& shape, const std::string& path, bool file_materials,
                                         bool has_texture);
-  /// The surface of a primitive whose circles have so many corners, with a texture (-1: none).
+  /// Returns the surface of a primitive whose circles have so many corners, with a texture (-1: none).
   std::uint32_t primitive(const std::string& name, int corners, std::int32_t texture);
   std::uint32_t add(Surface surface);
   std::int32_t texture_of(Connector& c, const std::string& path, std::span<const std::uint8_t> bytes = {});
 
   double tolerance_ = 0;
   std::map<std::tuple<std::string, int, std::int32_t>, std::uint32_t> primitives_;
-  /// By file and source of the material, and scale.
+  /// Surfaces by file and source of the material, and scale.
   std::map<std::tuple<std::string, double, double, double>, std::vector<ColoredSurface>> meshes_;
   struct SurfacePart {
     std::uint32_t surface = 0;
     Vec3 centre = Vec3::Zero();
   };
   heightmap::Store heightmap_files_;
-  /// By file, size and texture.
+  /// Surfaces by file, size and texture.
   std::map<std::tuple<std::string, double, double, double, std::int32_t>, std::vector<SurfacePart>> heightmaps_;
   std::map<std::string, std::string> unreadable_;  ///< files of meshes and heightmaps, and why
   std::map<std::string, std::int32_t> texture_numbers_;

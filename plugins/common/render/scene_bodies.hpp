@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bodies that sensors see: the scenery and the links of all robots but shadows (level.shadow).
+// Bodies that sensors see: the scenery and the links of all robots except shadows (level.shadow).
 #pragma once
 
 #include <span>
@@ -22,7 +22,7 @@ struct SceneBody {
 };
 
 /// Calls visit(SceneBody, shapes) for each body that has shapes, and binds the poses of these bodies: scenery in the
-/// order of objects, then robot by robot. `shapes_of(object)` gives the shapes of a body that count. [setup]
+/// order of objects, then robot by robot. `shapes_of(object)` returns the shapes of a body that count. [setup]
 template <class ShapesOf, class Visit>
 void for_each_body(Connector& c, ShapesOf shapes_of, Visit visit) {
   const auto visit_body = [&](SceneBody body) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The shaders. Positions are relative to the camera, in the axes of the world, so that single precision is enough far
-// from the origin as well.
+// Shaders. Positions are relative to the camera, in the axes of the world, so that single precision is also enough far
+// from the origin.
 #pragma once
 
 namespace muro::render::shaders {
 
-/// For colours, depths and shadows.
+/// Vertex shader for colours, depths and shadows.
 constexpr const char* instance_vertex = R"(#version 450 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -43,12 +43,12 @@ void main() { label = object_label; })";
 constexpr const char* depth_fragment = R"(#version 450 core
 void main() {})";
 
-/// Before `color_fragment`: with shadows or without. Two programs, since what draws without a GPU runs both sides of
-/// every branch.
+/// Text before `color_fragment`, with shadows or without. There are two programs, because a renderer without a GPU runs
+/// both sides of every branch.
 constexpr const char* with_shadows = "#version 450 core\n#define SHADOWS\n";
 constexpr const char* without_shadows = "#version 450 core\n";
 
-/// Lambert's law under a sun and a sky that is brighter above than the ground below; distance fades to the horizon.
+/// Lambert's law under a sun and a sky that is brighter above than the ground below. Distance fades to the horizon.
 constexpr const char* color_fragment = R"(
 in vec3 at;
 in vec3 surface_normal;
@@ -98,7 +98,7 @@ void main() {
   color = vec4(mix(horizon, lit, exp(-dot(at, at) / (450 * 450))), 1);
 })";
 
-/// For lines and points over an image.
+/// Shaders for lines and points over an image.
 constexpr const char* line_vertex = R"(#version 450 core
 layout(location = 0) in vec3 at;
 layout(location = 1) in vec4 color;

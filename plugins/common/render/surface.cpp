@@ -14,7 +14,8 @@ using std::numbers::pi;
 namespace {
 
 constexpr double smooth_angle = 40 * pi / 180;
-/// Where more triangles than this share a vertex, its normals are those of the triangles: each is compared with each.
+/// Limit of smoothing, which compares each with each: with more triangles at a vertex, normals are those of the
+/// triangles.
 constexpr std::size_t max_smooth_triangles = 1000;
 
 Vertex vertex(const Vec3& position, const Vec3& normal, double across = 0, double down = 0) {
@@ -27,7 +28,7 @@ void add_quad(Surface& s, std::uint32_t a, std::uint32_t b, std::uint32_t c, std
   s.indices.insert(s.indices.end(), {a, b, c, a, c, d});
 }
 
-/// A grid of a sphere's points between two latitudes (rad).
+/// Makes a grid of a sphere's points between two latitudes (rad).
 Surface part_of_sphere(int n, int rows, double low, double high) {
   Surface s;
   for (int i = 0; i <= rows; ++i) {
@@ -51,7 +52,7 @@ Surface unit_box() {
   Surface s;
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-0.5, 0.5}) {
-      // textures stand upright on the sides
+      // textures are upright on the sides
       const Vec3 normal = 2 * side * Vec3::Unit(axis), v = Vec3::Unit(axis == 2 ? 1 : 2), u = v.cross(normal);
       const auto first = std::uint32_t(s.vertices.size());
       for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
@@ -111,7 +112,7 @@ Surface unit_ground() {
 }
 
 Surface surface_of(const mesh::Mesh& mesh) {
-  std::vector<Vec3> normals;  // of triangles, by area
+  std::vector<Vec3> normals;  // of triangles, weighted by area
   std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
   for (const mesh::Triangle& t : mesh.triangles) {
     for (const std::uint32_t corner : t) around[corner].push_back(std::uint32_t(normals.size()));
@@ -120,7 +121,7 @@ Surface surface_of(const mesh::Mesh& mesh) {
   }
   const double smooth = elementary::cos(smooth_angle);
   Surface s;
-  std::vector<std::vector<std::uint32_t>> drawn(mesh.vertices.size());  // with their normals
+  std::vector<std::vector<std::uint32_t>> drawn(mesh.vertices.size());  // vertices with their normals
   const auto index_of = [&](std::uint32_t corner, const Vec3& normal) {
     const Vertex v = vertex(mesh.vertices[corner], normal);
     if (around[corner].size() <= max_smooth_triangles)

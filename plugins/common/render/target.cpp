@@ -24,7 +24,7 @@ void check_framebuffer(GLuint framebuffer, std::uint32_t width, std::uint32_t he
                 std::to_string(height) + " pixels of this kind; try another size, or fewer `samples`");
 }
 
-/// How many samples a pixel of this format may have at most; 0 or 1: one.
+/// Returns the most samples that a pixel of this format may have; 0 or 1: one.
 GLint max_samples(GLenum format) {
   GLint largest = 0;  // the counts come in descending order
   glGetInternalformativ(GL_RENDERBUFFER, format, GL_SAMPLES, 1, &largest);

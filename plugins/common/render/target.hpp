@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What images are drawn into, and how they are read back. To be made and used while the context is current.
+// Targets of drawing, from which images are read back. Must be made and used while the context is current.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace muro::render {
 /// A colour image: several samples for each pixel, averaged in linear light.
 class ColorTarget {
  public:
-  /// Takes fewer samples where the driver has not as many.
+  /// Takes fewer samples if the driver does not have as many.
   ColorTarget(std::uint32_t width, std::uint32_t height, std::uint32_t samples_per_pixel = 4);
   ~ColorTarget();
   ColorTarget(const ColorTarget&) = delete;
@@ -18,9 +18,9 @@ class ColorTarget {
 
   std::uint32_t samples() const { return samples_; }
   void begin() const;
-  /// sRGB, as many rows of `width` pixels as fit, from the top.
+  /// Reads sRGB, as many rows of `width` pixels as fit, from the top.
   void read(std::span<std::uint8_t> rgb) const;
-  /// Into the window whose context is current.
+  /// Copies the image to the window whose context is current.
   void show() const;
 
  private:
@@ -32,7 +32,7 @@ class ColorTarget {
   std::uint32_t buffers_[3] = {};
 };
 
-/// Depths and, on request, labels: one sample in the centre of each pixel.
+/// Depths and, on request, labels, with one sample in the centre of each pixel.
 class DepthTarget {
  public:
   DepthTarget(std::uint32_t width, std::uint32_t height, bool labels);
@@ -43,10 +43,10 @@ class DepthTarget {
   bool has_labels() const { return buffers_[1] != 0; }
   /// Clears the target and directs all following drawing to it.
   void begin() const;
-  /// The depth buffer: near / distance along the axis, 0 where nothing was drawn; as many rows of `width` pixels as
-  /// fit, from the top.
+  /// Reads the depth buffer: near / distance along the axis, 0 where nothing was drawn. Reads as many rows of `width`
+  /// pixels as fit, from the top.
   void read(std::span<float> inverse) const;
-  /// The label of each pixel, 0xffffffff where nothing was drawn; likewise.
+  /// Reads the label of each pixel, 0xffffffff where nothing was drawn, in the same order.
   void read(std::span<std::uint32_t> labels) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers of things in messages.
+// Counts of things in messages.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace muro {
 
-/// "1 number", "2 numbers": of what gets an s when there are several.
+/// Returns "1 number", "2 numbers": for words that get an s in the plural.
 inline std::string counted(std::uint64_t count, std::string_view what) {
   return std::to_string(count).append(1, ' ').append(what).append(count == 1 ? "" : "s");
 }

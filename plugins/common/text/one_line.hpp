@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Words of other libraries, in messages.
+// Texts of other libraries, in messages.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace muro {
 
-/// Text that another library says, maybe with pieces of a file in it, as it may stand in a message: printable, in one
-/// line of bounded length.
+/// Converts a text of another library, maybe with pieces of a file in it, for a message: printable, in one line of
+/// bounded length.
 inline std::string one_line(std::string_view text) {
   constexpr std::size_t max = 400;
   std::string words;

@@ -9,13 +9,13 @@
 
 namespace muro {
 
-/// A name or value as it may stand in a message: in backquotes, of bounded length, with control characters as \xHH.
+/// Converts a name or value for a message: in backquotes, of bounded length, with control characters as \xHH.
 inline std::string quote(std::string_view text) {
   constexpr std::size_t max = 256;
   return "`" + shortened(printable(text), max) + "`";
 }
 
-/// "`a`, `b`, `c` and 4 more".
+/// Returns "`a`, `b`, `c` and 4 more".
 template <class Names>
 std::string quoted_list(const Names& names) {
   constexpr std::size_t max = 8;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The number type of a property, which is known only when a program runs, as a type of C++.
+// Conversion of the number type of a property, which is known only at run time, to a type of C++.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace muro {
 
-/// Calls `visit` with a 0 of the type that a scalar is: `[&]<class T>(T) { ... }`. Opaque and transient values, which
-/// have none, are taken for double; who calls this leaves them out.
+/// Calls `visit` with a 0 of the type of a scalar: `[&]<class T>(T) { ... }`. Opaque and transient values have none and
+/// are taken for double; callers must exclude them.
 template <class Visit>
 auto with_scalar(Scalar scalar, Visit visit) {
   switch (scalar) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The points of a wheeled vehicle that stand on the ground.
+// Points of a wheeled vehicle that stand on the ground.
 #pragma once
 
 #include <vector>
@@ -13,13 +13,13 @@
 
 namespace muro::wheels {
 
-/// The lowest point (m, in the frame of the base) of a wheel.
+/// Returns the lowest point (m, in the frame of the base) of a wheel.
 inline Vec3 lowest_point(const Wheel& w) { return w.centre - Vec3(0, 0, w.radius); }
 
 namespace detail {
 
-/// What of a robot may touch the ground beside its wheels: the lowest points of other collision shapes in the frame of
-/// the base, with its joints at `positions`. Of a box all lower corners; meshes are left out.
+/// Returns points of a robot that may touch the ground beside its wheels: the lowest points of other collision shapes
+/// in the frame of the base, with its joints at `positions`. A box has all its lower corners; meshes are omitted.
 inline std::vector<Vec3> low_points(const Connector& c, const RobotView& robot, std::span<const double> positions,
                                     const std::vector<bool>& is_wheel) {
   std::vector<Pose> in_base(robot.links.size());
@@ -46,11 +46,11 @@ inline std::vector<Vec3> low_points(const Connector& c, const RobotView& robot, 
 
 }  // namespace detail
 
-/// The lowest points of its wheels, in their order, each with weight 1. Where these lie in a line (two wheels, or a
-/// bicycle) follow those that hold it beside, as low as the wheels and with a weight that leaves the wheels on the
-/// ground: the lowest of its other shapes, casters or the chassis, that reach down to half a radius of the wheels above
-/// the ground; else two points beside the line, so that it takes on the slope there. `all`: with `link`, `lowest` and
-/// `radius`. [setup]
+/// Returns the lowest points of the wheels, in their order, each with weight 1. If they lie in a line (two wheels, or a
+/// bicycle), points follow that support the line at its sides. These are as low as the wheels and have a weight that
+/// leaves the wheels on the ground. They are the lowest of its other shapes, casters or the chassis, that reach down to
+/// half a radius of the wheels above the ground. If there are none, they are two points beside the line, so that it
+/// takes on the slope there. `all`: wheels with `link`, `lowest` and `radius`. [setup]
 template <class StandingWheel>
 std::vector<ground::ContactPoint> contact_points(const Connector& c, const RobotView& robot,
                                                  std::span<const StandingWheel> all,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The speed that a drive gives to a wheel.
+// Speed that a drive gives to a wheel.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +15,12 @@
 namespace muro::wheels {
 
 struct DriveTarget {
-  Out<double> speed;     ///< rad/s, of the wheel's joint; null for a wheel that is not driven
+  Out<double> speed;     ///< rad/s, of the wheel's joint; null if the wheel is not driven
   double max_speed = 0;  ///< rad/s
 };
 
-/// The target of the wheel whose joint leads to `link` of `robot` and has these limits. Throws Error where it must not
-/// turn. [setup]
+/// Returns the target of the wheel whose joint leads to `link` of `robot` and has these limits. Throws Error if the
+/// joint must not turn. [setup]
 inline DriveTarget connect_drive_target(Connector& c, const RobotView& robot, std::uint32_t link,
                                         const JointLimits& limits) {
   const ObjectId joint = robot.links[link].joint_object;
@@ -31,7 +31,7 @@ inline DriveTarget connect_drive_target(Connector& c, const RobotView& robot, st
   return {c.optional_output(joint, keys::joint_velocity_target), max_speed};
 }
 
-/// Where a target exceeds the limit of its wheel, slows down all wheels by the same factor: the path keeps its
+/// Slows down all wheels by the same factor if a target exceeds the limit of its wheel, so that the path keeps its
 /// curvature. Each wheel has a member `DriveTarget target`. [step]
 template <class Wheel>
 void limit_speeds(std::span<Wheel> wheels) {

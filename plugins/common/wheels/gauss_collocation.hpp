@@ -3,8 +3,8 @@
 
 namespace muro::wheels {
 
-/// The collocation method of Gauss with N points on 0 .. 1, of order 2 N, as a Butcher tableau (Hairer, Norsett,
-/// Wanner, Solving Ordinary Differential Equations I, II.7).
+/// Gauss's collocation method with N points on 0 .. 1, of order 2 N, as a Butcher tableau (Hairer, Norsett, Wanner,
+/// Solving Ordinary Differential Equations I, II.7).
 template <int N>
 struct GaussCollocation {
   double node[N];
@@ -19,7 +19,7 @@ struct GaussCollocation {
   }
 
  private:
-  /// Lagrange's polynomial that is 1 at node j and 0 at all others.
+  /// Returns Lagrange's polynomial that is 1 at node j and 0 at all other nodes.
   constexpr double lagrange(int j, double t) const {
     double product = 1;
     for (int m = 0; m < N; ++m)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The properties that motions and drives of wheeled vehicles name in their descriptions.
+// Properties that motions and drives of wheeled vehicles name in their descriptions.
 #pragma once
 
 #include "muro/toolkit/accelerations.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joints that are no wheels: they follow their velocity targets at once, or other joints.
+// Joints that are not wheels: they follow their velocity targets at once, or follow other joints.
 #pragma once
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 
 namespace muro::wheels {
 
-/// Position and velocity of the joint of every link, as far as they are bound.
+/// Position and velocity of the joint of every link, if they are bound.
 struct JointState {
   std::vector<Out<double>> position, velocity;
   explicit JointState(const RobotView& robot) : position(robot.links.size()), velocity(robot.links.size()) {}
-  /// Takes `position` and `velocity` of `joint`, which leads to `link`.
+  /// Binds `position` and `velocity` of `joint`, which leads to `link`.
   template <class Joint>
   void bind(std::size_t link, const Joint& joint) {
     position[link] = joint.position;
@@ -24,12 +24,12 @@ struct JointState {
 
 class NonWheelJoints {
  public:
-  /// Those of one robot.
+  /// Joints of one robot.
   struct OfRobot {
     Range joints, mimics;
   };
 
-  /// Takes the joints of `robot` whose `state` is not bound yet, and all that follow others. `positions`: at the start,
+  /// Binds the joints of `robot` that `state` has not bound yet, and all that follow others. `positions`: at the start,
   /// one a link. [setup]
   OfRobot connect(Connector& c, const RobotView& robot, std::span<const double> positions, JointState& state) {
     std::vector<Joint> joints;
@@ -54,7 +54,7 @@ class NonWheelJoints {
     return {joints_.add(joints), mimics_.add(mimics)};
   }
 
-  /// Moves those of `robot` for `dt` (s). [step]
+  /// Moves the joints of `robot` for `dt` (s). [step]
   void move(const OfRobot& robot, double dt) const {
     for (const Joint& joint : joints_[robot.joints]) joint.move(dt);
     for (const Mimic& mimic : mimics_[robot.mimics]) mimic.follow();

@@ -8,7 +8,7 @@
 namespace muro::wheels {
 
 std::vector<PlanarTwist> jacobian_columns(const RobotView& robot, std::span<const OmniWheel> wheels) {
-  double length = 0;  // makes the turn rate a velocity, so that all three have the same unit
+  double length = 0;  // converts the turn rate to a velocity, so that all three have the same unit
   for (const OmniWheel& w : wheels) length = std::max(length, w.centre.head<2>().norm());
   const Vec3 scale(1, 1, length > 0 ? 1 / length : 1);
   std::vector<Vec3> rows;

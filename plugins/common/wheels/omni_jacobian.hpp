@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Between the joint speeds of wheels with rollers and the velocity of the base: the equation of the Swedish wheel of
-// Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots, 2nd edition, section 3.2.3, written
-// with vectors.
+// Relation between the joint speeds of wheels with rollers and the velocity of the base: the equation of the Swedish
+// wheel of Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots, 2nd edition, section 3.2.3,
+// written with vectors.
 #pragma once
 
 #include <span>
@@ -13,9 +13,9 @@
 
 namespace muro::wheels {
 
-/// The row of the inverse Jacobian that belongs to a wheel: rad/s of its joint for each m/s along x, m/s along y and
-/// rad/s of the base. Only along the axis of the roller on the ground, the direction e, does the ground hold the wheel:
-/// there its centre at c moves as the wheel turns, e (v + w z x c) = r dq/dt cos(g), g the roller angle.
+/// Returns the row of the inverse Jacobian of a wheel: rad/s of its joint for each m/s along x, m/s along y and rad/s
+/// of the base. The ground holds the wheel only along the direction e, the axis of the roller on the ground. Along e
+/// the wheel's centre at c moves as the wheel turns, e (v + w z x c) = r dq/dt cos(g), with g the roller angle.
 inline PlanarTwist inverse_jacobian_row(const OmniWheel& w) {
   const auto [s, c] = elementary::sincos(w.roller_angle);
   const Vec3 &h = w.heading, &p = w.centre;
@@ -23,9 +23,10 @@ inline PlanarTwist inverse_jacobian_row(const OmniWheel& w) {
   return PlanarTwist{ex, ey, p.x() * ey - p.y() * ex} * (1 / (w.radius * c));
 }
 
-/// The columns of the Jacobian, one a wheel: velocity of the base per rad/s of the wheel's joint. With more than three
-/// wheels, whose speeds may contradict each other, it is the pseudo-inverse of the inverse Jacobian that makes the
-/// squares of the velocities along the rollers' axes least. Throws Error when the wheels leave a motion free. [setup]
+/// Returns the columns of the Jacobian, one a wheel: velocity of the base per rad/s of the wheel's joint. The speeds of
+/// more than three wheels may contradict each other. Then it is the pseudo-inverse of the inverse Jacobian, which
+/// minimises the squares of the velocities along the rollers' axes. Throws Error if the wheels leave a motion free.
+/// [setup]
 std::vector<PlanarTwist> jacobian_columns(const RobotView& robot, std::span<const OmniWheel> wheels);
 
 }  // namespace muro::wheels

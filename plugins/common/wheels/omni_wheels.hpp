@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The wheels of a vehicle that can move in every direction: mecanum wheels and omni wheels.
+// Wheels of a vehicle that can move in every direction: mecanum wheels and omni wheels.
 #pragma once
 
 #include <algorithm>
@@ -14,11 +14,11 @@ namespace muro::wheels {
 
 /// A wheel with rollers on its circumference.
 struct OmniWheel : Wheel {
-  /// rad, -pi/2 .. pi/2: from the direction in which the wheel rolls (forward or to the left, whatever the sense of its
-  /// joint) to the axis of the roller on the ground, about the base's z axis. 0: an omni wheel, whose rollers turn
-  /// about its circumference; +-pi/4: a mecanum wheel.
+  /// Angle, rad, -pi/2 .. pi/2, about the base's z axis: from the direction in which the wheel rolls (forward or to the
+  /// left, whatever the sense of its joint) to the axis of the roller on the ground. 0: an omni wheel, whose rollers
+  /// turn about its circumference; +-pi/4: a mecanum wheel.
   double roller_angle = 0;
-  Vec3 heading = Vec3::UnitX();  ///< unit, in the base's frame: where a positive joint velocity rolls
+  Vec3 heading = Vec3::UnitX();  ///< unit, in the base's frame: rolling direction of a positive joint velocity
 };
 
 namespace detail {
@@ -46,7 +46,7 @@ inline std::string omni_wheels_found(const WheelFinder& finder) {
   });
 }
 
-/// Those that are named, or, where none is, those that the model has.
+/// Returns the wheels that are named or, if none is named, those that the model has.
 inline std::vector<OmniWheel> choose_omni_wheels(const WheelFinder& finder, const RobotView& robot,
                                                  const Parameters& p) {
   std::vector<OmniWheel> wheels;
@@ -73,8 +73,8 @@ inline Vec3 middle_of(const std::vector<OmniWheel>& wheels) {
   return middle;
 }
 
-/// The sign of each wheel's roller angle where four wheels about the y axis stand at the corners of a rectangle: seen
-/// from above the upper rollers form an X. Empty for other vehicles.
+/// Returns the sign of each wheel's roller angle if four wheels about the y axis are at the corners of a rectangle:
+/// seen from above the upper rollers form an X. Empty for other vehicles.
 inline std::vector<double> mecanum_signs(const std::vector<OmniWheel>& wheels) {
   const Vec3 middle = middle_of(wheels);
   std::vector<double> signs;
@@ -103,15 +103,15 @@ inline bool axes_meet(const std::vector<OmniWheel>& wheels) {
 
 }  // namespace detail
 
-/// The wheels of `robot`, joints at 0: in the order of the parameter `wheels`, else of the robot's links; as the
-/// parameters `roller_angle` and `wheel_radius` say.
+/// Returns the wheels of `robot`, joints at 0, in the order of the parameter `wheels`, or else of the robot's links.
+/// Uses the parameters `roller_angle` and `wheel_radius`.
 ///
-/// Unless they are named, wheels are joints without limits of position about a horizontal axis (to 0.1 rad) that carry
-/// a cylinder or sphere about it and do not hang on another such joint, as rollers do. Unless roller angles are given,
-/// four wheels about the y axis at the corners of a rectangle are mecanum wheels with +-pi/4, of which those of the
-/// diagonal front left to rear right have the minus: seen from above the upper rollers form an X. A single angle that
-/// is given replaces pi/4 there. Wheels whose axes meet in their middle are omni wheels with roller angle 0. Throws
-/// Error with what the model has. [setup]
+/// Wheels that are not named are joints without limits of position about a horizontal axis (to 0.1 rad) that carry a
+/// cylinder or sphere about it. They must not hang on another such joint, as rollers do. If no roller angles are given,
+/// four wheels about the y axis at the corners of a rectangle are mecanum wheels with +-pi/4. Those on the diagonal
+/// front left to rear right have the minus: seen from above the upper rollers form an X. A single given angle replaces
+/// pi/4 there. Wheels whose axes meet in their middle are omni wheels with roller angle 0. Throws Error with a list of
+/// the model's joints. [setup]
 inline std::vector<OmniWheel> find_omni_wheels(const Connector& connector, const RobotView& robot) {
   const Parameters& p = connector.parameters();
   const WheelFinder finder(connector, robot);

@@ -7,7 +7,7 @@
 
 namespace muro::wheels {
 
-// Which wheels a vehicle has.
+// Choice of the wheels of a vehicle.
 inline constexpr Parameter left_wheels = texts("left", "joints of the left wheels; default: as the model has them");
 inline constexpr Parameter right_wheels = texts("right", "joints of the right wheels; default: as the model has them");
 inline constexpr Parameter all_wheels = texts("wheels", "joints of the wheels; default: as the model has them");
@@ -18,7 +18,7 @@ inline constexpr Parameter driven_wheels =
 inline constexpr Parameter rolling_wheels =
     texts("rolling", "joints of wheels that the ground turns; default: all others that the model has");
 
-// How they are.
+// Properties of the wheels.
 inline constexpr Parameter wheel_radius =
     real("wheel_radius", "m", 0, "of every wheel; 0: of the wheels' shapes").between(0, 1e3);
 inline constexpr Parameter track =
@@ -29,10 +29,10 @@ inline constexpr Parameter roller_angle =
           "from a wheel's rolling direction to the axis of the roller on the ground: one for all, or one a wheel; "
           "default: mecanum (pi/4) or omni wheels (0), as they stand");
 
-/// rad/s, m/s: a command that asks for more is a mistake.
+/// Largest command, rad/s or m/s: a larger one is a mistake.
 inline constexpr double fastest = 1e12;
 
-// What they can do.
+// Limits of the wheels.
 inline constexpr Parameter max_wheel_speed =
     real("max_wheel_speed", "rad/s", unlimited, "of every driven wheel; the limit of its joint holds as well")
         .between(1e-6, unlimited);

@@ -8,8 +8,8 @@
 
 namespace muro::wheels {
 
-/// Velocity of the frame's origin in the frame's own axes, and turn rate about its z axis. Also a rate of change of
-/// these, and a row or column of a Jacobian.
+/// Velocity of the frame's origin in the frame's own axes, and turn rate about its z axis. Also used for a rate of
+/// change of these, and for a row or column of a Jacobian.
 struct PlanarTwist {
   double x = 0, y = 0;  ///< m/s
   double yaw_rate = 0;  ///< rad/s
@@ -23,20 +23,20 @@ inline double dot(const PlanarTwist& a, const PlanarTwist& b) {
   return a.x * b.x + a.y * b.y + a.yaw_rate * b.yaw_rate;
 }
 
-/// The part of a body's velocity (world axes) that lies in its own x-y plane.
+/// Returns the part of a body's velocity (world axes) that lies in its own x-y plane.
 inline PlanarTwist in_plane(const Pose& pose, const Twist& v) {
   const Quat to_body = pose.orientation.conjugate();
   const Vec3 linear = to_body * v.linear;
   return {linear.x(), linear.y(), (to_body * v.angular).z()};
 }
 
-/// The velocity `v` of a frame at `pose`, in the axes of the world.
+/// Returns the velocity `v` of a frame at `pose`, in the axes of the world.
 inline Twist in_world(const Pose& pose, const PlanarTwist& v) {
   return {pose.orientation * Vec3(v.x, v.y, 0), pose.orientation * Vec3(0, 0, v.yaw_rate)};
 }
 
-/// The pose, in the frame's pose before, after the constant `v` for `dt` (s): an arc. Its chord is
-/// v dt sin(h) / h long and h off the start's heading, where h is half the angle by which it turns.
+/// Returns the pose, in the frame's pose before, after the constant `v` for `dt` (s): an arc. Its chord has the length
+/// v dt sin(h) / h and the angle h to the heading at the start, where h is half the angle of the turn.
 inline Pose arc(const PlanarTwist& v, double dt) {
   const double half = 0.5 * v.yaw_rate * dt;
   const auto [s, c] = elementary::sincos(half);
@@ -44,9 +44,9 @@ inline Pose arc(const PlanarTwist& v, double dt) {
   return {{chord * (c * v.x - s * v.y), chord * (s * v.x + c * v.y), 0}, Quat(c, 0, 0, s)};
 }
 
-/// As `arc`, with a velocity that is `v` at first and changes at the constant `acceleration`. Heading exact; position,
-/// a Fresnel integral, by Gauss and Legendre's rule of five points: exact to 1e-10 of the length of the path for turns
-/// up to 1 rad.
+/// Returns the pose as `arc` does, for a velocity that is `v` at first and has the constant rate `acceleration`. The
+/// heading is exact. The position, a Fresnel integral, is found by Gauss and Legendre's rule of five points: exact to
+/// 1e-10 of the length of the path for turns up to 1 rad.
 inline Pose accelerated_arc(const PlanarTwist& v, const PlanarTwist& acceleration, double dt) {
   constexpr double nodes[] = {-0.9061798459386640, -0.5384693101056831, 0, 0.5384693101056831, 0.9061798459386640};
   constexpr double weights[] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665,

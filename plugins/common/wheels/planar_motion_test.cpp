@@ -9,7 +9,7 @@
 namespace muro::wheels {
 namespace {
 
-/// The displacement of a frame by Simpson's rule over many small intervals.
+/// Returns the displacement of a frame by Simpson's rule over many small intervals.
 Vec3 simpson(const PlanarTwist& v, const PlanarTwist& acceleration, double dt) {
   const int n = 20000;
   Vec3 sum = Vec3::Zero();

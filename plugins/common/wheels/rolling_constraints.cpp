@@ -7,7 +7,7 @@ namespace muro::wheels {
 
 namespace {
 
-/// The adjugate of a symmetric matrix.
+/// Returns the adjugate of a symmetric matrix.
 Mat3 adjugate(const Mat3& m) {
   const double a = m(0, 0), b = m(1, 1), c = m(2, 2), d = m(0, 1), e = m(0, 2), f = m(1, 2);
   Mat3 adjugate;

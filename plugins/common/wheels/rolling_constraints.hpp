@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Wheels that roll on a plane without slip, steered or not: which motion of the base their angles and speeds allow. The
-// rolling and sliding constraints of standard wheels of Siegwart, Nourbakhsh and Scaramuzza, Introduction to
+// Wheels that roll on a plane without slip, steered or not: the motions of the base that their angles and speeds allow.
+// Uses the rolling and sliding constraints of standard wheels of Siegwart, Nourbakhsh and Scaramuzza, Introduction to
 // Autonomous Mobile Robots, 2nd edition, section 3.2.3, written with vectors.
 #pragma once
 
@@ -15,9 +15,9 @@ namespace muro::wheels {
 /// A wheel in the plane, in the frame of its base.
 struct PlanarWheel {
   double x = 0, y = 0;          ///< m: a point on the axis that steers it, or its centre
-  double forward_offset = 0;    ///< m: from this axis to its centre, along its rolling direction; below 0: trail
-  double left_offset = 0;       ///< m: the same to the left of its rolling direction
-  double zero_heading = 0;      ///< rad: its rolling direction with the steering at 0, -pi/2 .. pi/2
+  double forward_offset = 0;    ///< m: from this point to its centre, along its rolling direction; below 0: trail
+  double left_offset = 0;       ///< m: from this point to its centre, to the left of its rolling direction
+  double zero_heading = 0;      ///< rad: rolling direction with the steering at 0, -pi/2 .. pi/2
   double angle_per_metre = 20;  ///< rad/m: of its joint, along its rolling direction
 
   explicit PlanarWheel(const SteeredWheel& w) {
@@ -32,12 +32,12 @@ struct PlanarWheel {
     left_offset = cosine * arm.y() - sine * arm.x();
   }
 
-  /// Velocity (m/s) of its centre along its rolling direction, at the heading with sine `s` and cosine `c`, when the
-  /// base moves at `v` and the steering turns the wheel at `rate` (rad/s).
+  /// Returns the velocity (m/s) of its centre along its rolling direction, at the heading with sine `s` and cosine `c`,
+  /// if the base moves at `v` and the steering turns the wheel at `rate` (rad/s).
   double longitudinal_velocity(double s, double c, const PlanarTwist& v, double rate) const {
     return c * (v.x - v.yaw_rate * y) + s * (v.y + v.yaw_rate * x) - (v.yaw_rate + rate) * left_offset;
   }
-  /// The same to the left of its rolling direction: 0 for a wheel that does not slip.
+  /// Returns the velocity (m/s) of its centre to the left of its rolling direction: 0 for a wheel that does not slip.
   double lateral_velocity(double s, double c, const PlanarTwist& v, double rate) const {
     return c * (v.y + v.yaw_rate * x) - s * (v.x - v.yaw_rate * y) + (v.yaw_rate + rate) * forward_offset;
   }
@@ -47,22 +47,23 @@ struct PlanarWheel {
 struct WheelState {
   double sine = 0, cosine = 1;  ///< of its heading in the frame of the base
   double steering_rate = 0;     ///< rad/s
-  double speed = 0;             ///< m/s, along its rolling direction, where it is driven
+  double speed = 0;             ///< m/s, along its rolling direction, if it is driven
 };
 
 /// A motion of the base that its wheels allow.
 struct RollingMotion {
   PlanarTwist velocity;
-  int degree_of_mobility = 1;  ///< 1: the angles leave one motion, of which the speeds only set how fast; or 2
+  int degree_of_mobility = 1;  ///< 1: the angles leave one motion, and speeds only set its size; or 2
 };
 
-/// Finds the motion of a base whose wheels do not slip: no lateral velocity at their headings (sliding constraints),
-/// and the longitudinal one as driven wheels turn (rolling constraints). Where that cannot be, least squares: first of
-/// the lateral velocities, over all motions of one size, |v|^2 + (L w)^2 = 1 with v in the middle of the wheels and L
-/// their mean distance from it; then of the longitudinal velocities of driven wheels, over the motions that are left.
+/// Finds the motion of a base whose wheels do not slip: the lateral velocity at their headings is zero (sliding
+/// constraints), and the longitudinal velocity follows from the turn of driven wheels (rolling constraints). If that is
+/// not possible, it uses least squares in two steps. The first minimises the lateral velocities over all motions of one
+/// size, |v|^2 + (L w)^2 = 1 with v in the middle of the wheels and L their mean distance from it. The second minimises
+/// the errors of the longitudinal velocities of driven wheels, over the remaining motions.
 class RollingConstraints {
  public:
-  /// `wheels` at x, y of the base.
+  /// `wheels` have x, y in the frame of the base.
   explicit RollingConstraints(std::span<const PlanarWheel> wheels) {
     for (const PlanarWheel& w : wheels) x_ += w.x / double(wheels.size()), y_ += w.y / double(wheels.size());
     double sum = 0;
@@ -70,7 +71,7 @@ class RollingConstraints {
     length_ = sum > 0 ? std::sqrt(sum / double(wheels.size())) : 1;
   }
 
-  /// `wheel(i)`, `state(i)`, `is_driven(i)`: of wheel i of `count`. [step]
+  /// Returns the motion. `wheel(i)`, `state(i)`, `is_driven(i)`: of wheel i of `count`. [step]
   template <class WheelOf, class StateOf, class IsDriven>
   RollingMotion motion(std::size_t count, const WheelOf& wheel, const StateOf& state, const IsDriven& is_driven) const {
     Mat3 normal = Mat3::Zero();
@@ -81,9 +82,9 @@ class RollingConstraints {
       right -= row * (state(i).steering_rate * wheel(i).forward_offset);
     }
     const NullSpace free = null_space_of(normal);
-    // the motion that the sliding constraints demand while wheels are being steered
+    // the motion that the sliding constraints require while wheels are being steered
     Vec3 found = right.isZero(0) ? right : free.solve(normal, right);
-    // what the constraints leave free follows from the driven wheels
+    // the rest, which the constraints leave free, follows from the driven wheels
     double aa = 0, ab = 0, bb = 0, ra = 0, rb = 0;
     for (std::size_t i = 0; i < count; ++i) {
       if (!is_driven(i)) continue;
@@ -95,18 +96,18 @@ class RollingConstraints {
     const double determinant = aa * bb - ab * ab;
     if (determinant > 1e-12 * (aa + bb) * (aa + bb))
       found += (free.first * (bb * ra - ab * rb) + free.second * (aa * rb - ab * ra)) / determinant;
-    else if (aa + bb > 1e-12)  // a wheel in the centre of rotation drives nothing
+    else if (aa + bb > 1e-12)  // a wheel in the centre of rotation has no effect
       found += (free.first * ra + free.second * rb) / (aa + bb);
     return {at_base(found), free.second.isZero(0) ? 1 : 2};
   }
 
  private:
-  /// The motions in which wheels slip least sideways: unit vectors, one, or two where all axles are one; else `second`
-  /// is zero.
+  /// Motions in which wheels slip least sideways, as unit vectors: one, or two if all wheels have one axle. `second` is
+  /// zero if there is one.
   struct NullSpace {
     Vec3 first, second = Vec3::Zero();
 
-    /// The solution of normal x = right that is orthogonal to both.
+    /// Returns the solution of normal x = right that is orthogonal to both.
     Vec3 solve(const Mat3& normal, const Vec3& right) const {
       const double size = normal.trace();
       const Mat3 regular = normal + size * (first * first.transpose() + second * second.transpose());
@@ -114,11 +115,11 @@ class RollingConstraints {
     }
   };
 
-  /// The eigenvector of the smallest eigenvalue: the only one left in the adjugate where that is 0, as it is for angles
-  /// that fit together; otherwise Rayleigh's iteration goes on from there.
+  /// Returns the eigenvector of the smallest eigenvalue. If that eigenvalue is 0, as for angles that fit together, the
+  /// adjugate gives it exactly; otherwise Rayleigh's iteration continues from there.
   static NullSpace null_space_of(const Mat3& normal);
 
-  /// Velocity of a wheel by motion of the middle, with the turn rate as a velocity at `length_`.
+  /// Returns the lateral velocity of a wheel by motion of the middle, with the turn rate as a velocity at `length_`.
   Vec3 lateral_row(const PlanarWheel& w, const WheelState& s) const {
     return {-s.sine, s.cosine, (s.cosine * (w.x - x_) + s.sine * (w.y - y_) + w.forward_offset) / length_};
   }

@@ -54,7 +54,7 @@ TEST(PlanarWheel, MovesAsItsCentreOnAnArmThatTurns) {
   }
 }
 
-/// Wheels at given headings, the first `driven` of them driven.
+/// Wheels at given headings; the first `driven` of them are driven.
 struct Vehicle {
   std::vector<PlanarWheel> wheels;
   std::vector<WheelState> states;
@@ -69,7 +69,7 @@ struct Vehicle {
         wheels.size(), [&](std::size_t i) { return wheels[i]; }, [&](std::size_t i) { return states[i]; },
         [&](std::size_t i) { return i < driven; });
   }
-  /// Sum of squares of the lateral velocities, for a motion of size 1.
+  /// Returns the sum of squares of the lateral velocities, for a motion of size 1.
   double slip(const PlanarTwist& v) const {
     double x = 0, y = 0, spread = 0, sum = 0;
     for (const PlanarWheel& w : wheels) x += w.x / double(wheels.size()), y += w.y / double(wheels.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From the commanded velocity of a base to the speeds of its left and right wheels: the inverse of
-// motion.differential_drive. The base of drive.differential and drive.skid_steer.
+// Conversion of the commanded velocity of a base to the speeds of its left and right wheels: the inverse of
+// motion.differential_drive. It is the base of drive.differential and drive.skid_steer.
 #pragma once
 
 #include "drive_target.hpp"
@@ -14,7 +14,7 @@ inline constexpr PropertyUse side_wheel_drive_reads[] = {{"command.twist", "of t
                                                          reads_wheel_shapes};
 inline constexpr PropertyUse side_wheel_drive_writes[] = {{"joint.velocity.target", "of every driven wheel"}};
 
-/// What is kept of a robot.
+/// Data of a robot.
 struct SideWheelRobot {
   /// speed = per_forward * forward + per_yaw * yaw_rate
   struct Wheel {
@@ -38,7 +38,7 @@ class SideWheelDrive : public PerRobotAlgorithm<SideWheelRobot> {
   }
 
  protected:
-  /// The track with which the wheels act, by the one that they have.
+  /// Returns the ratio of the effective track to the track of the wheels.
   virtual double track_scale(const Parameters&) const { return 1; }
 
  private:

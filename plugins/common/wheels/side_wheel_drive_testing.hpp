@@ -6,7 +6,7 @@
 
 namespace muro::test {
 
-/// A vehicle with a drive, which runs at 100 Hz, and, unless `motion` is empty, a motion.
+/// A vehicle with a drive that runs at 100 Hz and, unless `motion` is empty, a motion.
 struct SideWheelVehicle : Scene {
   const RobotView& robot;
   SideWheelVehicle(const RobotTree& tree, const std::string& drive, std::map<std::string, ParameterInput> settings,

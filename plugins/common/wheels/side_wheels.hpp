@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The driven wheels of a robot that turns by the difference of its left and right wheels.
+// Driven wheels of a robot that turns by the difference of its left and right wheels.
 #pragma once
 
 #include "plugins/common/text/quote.hpp"
@@ -11,12 +11,12 @@ namespace muro::wheels {
 struct SideWheels {
   std::vector<Wheel> left, right;
   double track = 0;            ///< m, between the middle of the left and the middle of the right wheels
-  Vec3 middle = Vec3::Zero();  ///< m, in the base's frame: half way between these two
+  Vec3 middle = Vec3::Zero();  ///< m, in the base's frame: half way between these two middles
 };
 
 namespace detail {
 
-/// Whether joint and shape of link `i` make it a driven wheel on one side; otherwise `why` says what speaks against it.
+/// Whether joint and shape of link `i` make it a driven wheel on one side; otherwise `why` gives the reason.
 inline bool is_side_wheel(const WheelFinder& finder, std::size_t i, Wheel& wheel, std::string& why) {
   constexpr double cos_tolerance = WheelFinder::cos_tolerance;
   if (!finder.turns_freely(i, why)) return false;
@@ -48,7 +48,7 @@ inline Vec3 mean_centre(const std::vector<Wheel>& wheels) {
   return sum / double(wheels.size());
 }
 
-/// The wheels of both sides: those that are named, or, where none is, those that the model has.
+/// Returns the wheels of both sides: those that are named or, if none is named, those that the model has.
 inline SideWheels choose_side_wheels(const WheelFinder& finder, const RobotView& robot, const Parameters& p) {
   const std::span<const std::string_view> left = p.texts(left_wheels.name), right = p.texts(right_wheels.name);
   const double radius = p.real(wheel_radius.name);
@@ -73,12 +73,12 @@ inline SideWheels choose_side_wheels(const WheelFinder& finder, const RobotView&
 
 }  // namespace detail
 
-/// The driven wheels of `robot`, joints at 0, as the parameters `left`, `right`, `wheel_radius` and `track` say.
+/// Returns the driven wheels of `robot`, joints at 0, by the parameters `left`, `right`, `wheel_radius` and `track`.
 ///
-/// Unless they are named, these are the joints without limits of position whose axis is parallel to the base's y axis
-/// (to 0.1 rad) and that carry a cylinder or sphere about this axis; left is y > 0. Casters and steered wheels (a joint
-/// about another axis lies between them and the base) and joints that follow others are no driven wheels.
-/// Throws Error with what the model has when a side has no wheel or a wheel no radius. [setup]
+/// Wheels that are not named are joints without limits of position whose axis is parallel to the base's y axis (to 0.1
+/// rad) and that carry a cylinder or sphere about this axis; left is y > 0. Casters, steered wheels (a joint about
+/// another axis is between them and the base) and joints that follow others are not driven wheels. Throws Error with a
+/// list of the model's joints if a side has no wheel or a wheel no radius. [setup]
 inline SideWheels find_side_wheels(const Connector& connector, const RobotView& robot) {
   const Parameters& p = connector.parameters();
   const WheelFinder finder(connector, robot);

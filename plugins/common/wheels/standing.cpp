@@ -10,13 +10,13 @@ namespace {
 
 constexpr double least_upright = 0.17;  ///< cosine of the angle of the z axis with the vertical: 80 deg
 constexpr double steepest = 5;          ///< tangent
-constexpr double largest_turn = 0.5;    ///< rad, in an iteration
-constexpr int most_iterations = 12;     ///< two or three do, but where points change between cells
-constexpr double accuracy = 1e-7;       ///< m, rad: of the last step, which leaves less by its square
+constexpr double largest_turn = 0.5;    ///< rad, in one iteration
+constexpr int most_iterations = 12;     ///< two or three are enough, unless points change between cells
+constexpr double accuracy = 1e-7;       ///< m, rad: of the last step; the remaining error is about its square
 
 }  // namespace
 
-/// Takes heading, slopes and place of a pose.
+/// Reads heading, slopes and place of a pose.
 void Standing::take(const Pose& pose) {
   const Mat3 r = pose.orientation.toRotationMatrix();
   is_lying_ = r(2, 2) < least_upright;
@@ -64,7 +64,7 @@ void Standing::NormalEquations::add(double weight, const Vec3& row, double value
   right += Vec3(x * value, y * value, z * value);
 }
 
-/// By Cramer's rule.
+/// Solves the equations by Cramer's rule.
 Vec3 Standing::NormalEquations::solution() const {
   const double ax = yy * zz - yz * yz, ay = xz * yz - xy * zz, az = xy * yz - xz * yy;
   const double by = xx * zz - xz * xz, bz = xy * xz - xx * yz, cz = xx * yy - xy * xy;
@@ -75,7 +75,7 @@ Vec3 Standing::NormalEquations::solution() const {
          determinant;
 }
 
-/// Gauss and Newton's iteration over height, pitch and roll.
+/// Uses Gauss and Newton's iteration over height, pitch and roll.
 void Standing::settle(const Pose& before, Pose& pose) {
   before_ = before;
   take(pose);

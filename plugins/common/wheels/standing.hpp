@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A rigid base that stands on the ground by several points.
+// A rigid base that stands on the ground with several points.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace muro::ground {
 
-/// A point of a robot that stands on the ground.
+/// A point of a robot that can stand on the ground.
 struct ContactPoint {
   Vec3 at = Vec3::Zero();  ///< m, in the frame of the base
   double weight = 1;       ///< in the least squares of the gaps between points and ground
@@ -20,35 +20,35 @@ struct Gliding {
   double yaw_rate = 0;  ///< rad/s, about its z axis
 };
 
-/// Height, roll and pitch of a base whose points stand on a terrain: by three points they do so exactly, by more with
+/// Height, roll and pitch of a base whose points stand on a terrain. Three points stand exactly. More points stand with
 /// the least sum of the squares of the vertical gaps, each times its weight, as if each wheel hung on a spring and all
-/// springs were alike. Its yaw (of the field's roll-pitch-yaw) and the place of the middle of the points on the map
-/// stay.
+/// springs were equal. The yaw of the base (of roll-pitch-yaw) and the place of the middle of the points on the map
+/// stay the same.
 ///
-/// A point without ground below keeps the height that it had at the pose before. A base whose z axis is more than 80
-/// deg off the vertical lies, and is left as it is.
+/// A point without ground below keeps the height that it had at the pose before. If the z axis of a base is more than
+/// 80 deg off the vertical, the base lies and is left as it is.
 class Standing {
  public:
-  /// `points`: three or more that lie in no line. Both are kept by reference.
+  /// `points`: three or more that are not in one line. Both arguments are kept by reference.
   Standing(const Terrain& terrain, std::span<const ContactPoint> points) : terrain_(terrain), points_(points) {}
 
   /// Puts a base that is at `pose`, and was at `before`, on the ground. [step]
   void settle(const Pose& before, Pose& pose);
 
-  /// The velocity (world axes, at its origin) of a base that stands at `pose` as it goes along the ground: what is
-  /// given, and the rates of its height, roll and pitch. [step]
+  /// Returns the velocity (world axes, at its origin) of a base that stands at `pose` and goes along the ground: the
+  /// given velocity `along`, and the rates of its height, roll and pitch. [step]
   Twist velocity(const Pose& pose, const Gliding& along);
 
  private:
-  /// The derivatives of the gap between a point and the ground, in the axes of the heading.
+  /// Derivatives of the gap between a point and the ground, in the axes of the heading.
   struct Row {
     Vec3 arm;       ///< m, from the middle of the points
-    Vec3 gradient;  ///< by the place of the point
+    Vec3 gradient;  ///< derivative by the place of the point
     double gap;     ///< m
-    Vec3 jacobian;  ///< by height, pitch and roll
+    Vec3 jacobian;  ///< derivative by height, pitch and roll
   };
 
-  /// The normal equations of the least squares, for the points' rates: A x = b, A symmetric.
+  /// Normal equations of the least squares, for the points' rates: A x = b, A symmetric.
   struct NormalEquations {
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
     Vec3 right = Vec3::Zero();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The wheels of a vehicle that turns by steering some of them.
+// Wheels of a vehicle that turns by steering some of them.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace muro::wheels {
 
 struct SteeredWheel : Wheel {
   std::int32_t steering = -1;     ///< link whose joint steers it; -1: none
-  Vec3 pivot = Vec3::Zero();      ///< m, in the base's frame: a point on the axis that it is steered about
+  Vec3 pivot = Vec3::Zero();      ///< m, in the base's frame: a point on its steering axis
   double steering_direction = 1;  ///< 1: a positive angle turns it to the left (axis along +z); -1: to the right
   bool driven = false;            ///< a drive turns it; else the ground does
 };
@@ -51,7 +51,7 @@ class SteeredWheelFinder {
         wheels.push_back(wheel);
       }
       if (std::none_of(wheels.begin(), wheels.end(), [](const SteeredWheel& w) { return w.driven; }))
-        for (SteeredWheel& w : wheels)  // all that may be driven are steered
+        for (SteeredWheel& w : wheels)  // all wheels that may be driven are steered
           w.driven = !std::any_of(rolling.begin(), rolling.end(),
                                   [&](std::string_view joint) { return finder_.name(w.link) == quote(joint); });
     }
@@ -76,7 +76,7 @@ class SteeredWheelFinder {
     return finder_.link(i).joint == JointKind::revolute && std::abs(finder_.axis(i).z()) >= WheelFinder::cos_tolerance;
   }
 
-  /// Whether joint and shape of link `i` make it a wheel; otherwise `why` says what speaks against it.
+  /// Whether joint and shape of link `i` make it a wheel; otherwise `why` gives the reason.
   bool is_wheel(std::size_t i, SteeredWheel& wheel, std::string& why) const {
     if (!finder_.turns_freely(i, why)) return false;
     if (std::abs(finder_.axis(i).y()) < WheelFinder::cos_tolerance)
@@ -87,7 +87,7 @@ class SteeredWheelFinder {
     return find_steering(wheel, why);
   }
 
-  /// Looks for the joint between the wheel and the base that steers it. Those about horizontal axes are suspensions.
+  /// Finds the joint between the wheel and the base that steers it. Joints about horizontal axes are suspensions.
   bool find_steering(SteeredWheel& wheel, std::string& why) const {
     for (std::size_t p = finder_.parent(wheel.link); p > 0; p = finder_.parent(p)) {
       if (finder_.link(p).joint != JointKind::revolute) continue;
@@ -132,14 +132,14 @@ class SteeredWheelFinder {
 
 }  // namespace detail
 
-/// The wheels of `robot`, joints at 0, in the order of its links; at least two, at least one of them steered, at least
-/// one driven; as the parameters `steering`, `driven`, `rolling` and `wheel_radius` say.
+/// Returns the wheels of `robot`, joints at 0, in the order of its links: at least two, of which at least one is
+/// steered and at least one is driven. Uses the parameters `steering`, `driven`, `rolling` and `wheel_radius`.
 ///
-/// Unless they are named, wheels are joints without limits of position whose axis is parallel to the base's y axis (to
-/// 0.1 rad) and that carry a cylinder or sphere about this axis. A wheel is steered when a joint parallel to the base's
-/// z axis lies between it and the base that has limits of position or follows another; without either it is the swivel
-/// of a caster, whose wheel does not count. The wheels that are not steered are driven, or all when all are steered.
-/// Throws Error with what the model has. [setup]
+/// Wheels that are not named are joints without limits of position whose axis is parallel to the base's y axis (to 0.1
+/// rad) and that carry a cylinder or sphere about this axis. A joint parallel to the base's z axis between a wheel and
+/// the base steers the wheel if it has limits of position or follows another joint. Otherwise it is the swivel of a
+/// caster, whose wheel does not count. Wheels that are not steered are driven; if all are steered, all are driven.
+/// Throws Error with a list of the model's joints. [setup]
 inline std::vector<SteeredWheel> find_steered_wheels(const Connector& connector, const RobotView& robot) {
   const detail::SteeredWheelFinder finder(connector, robot);
   std::vector<SteeredWheel> wheels = finder.all();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which joint turns which wheel of a vehicle with steered wheels, and by how much.
+// Relation of joints and wheels of a vehicle with steered wheels: which joint turns which wheel, and by how much.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct WheelSteering {
 };
 
 struct SteeringGeometry {
-  /// Links whose joints steer, each once: instead of a mimic joint the one that it follows.
+  /// Links whose joints steer, each once. A mimic joint is replaced by the joint that it follows.
   std::vector<std::size_t> joints;
   std::vector<WheelSteering> wheels;  ///< one a wheel
 };

@@ -11,10 +11,10 @@ namespace muro::ground {
 
 namespace {
 
-constexpr double least_upward = 0.1;  ///< cosine of the angle between a surface and the vertical
+constexpr double least_upward = 0.1;  ///< cosine of the angle between the normal of a surface and the vertical
 
-/// Where a vertical line meets a heightmap that is not level: `from` + t `up`, in the frame of the map. The line is cut
-/// with the plane of the triangle that is under the last cut, until that is the same one.
+/// Returns the t at which a vertical line, `from` + t `up` in the frame of the map, meets a heightmap that is not
+/// level. The line is cut with the plane of the triangle under the last cut, until the triangle stays the same.
 double cut(const Heightmap& map, const Vec3& from, const Vec3& up, Vec3& normal) {
   double t = -from.z() / up.z();
   for (int i = 0; i < 32; ++i) {
@@ -40,7 +40,7 @@ Terrain::Tile::Tile(const Heightmap& m, const Pose& pose)
   cosine = axes(0, 0), sine = axes(1, 0);
 }
 
-/// As Heightmap::ground_at, in few steps, for this is looked up more often than all else.
+/// Does the same as Heightmap::ground_at in few steps, because this is called more often than all else.
 std::optional<Ground> Terrain::Tile::ground_of_level(double x, double y) const {
   const double dx = x - shape.position.x(), dy = y - shape.position.y();
   const double column = (cosine * dx + sine * dy + 0.5 * map.size.x()) * cells_per_x;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ground that carries what moves without forces.
+// Ground that carries vehicles that move without forces.
 #pragma once
 
 #include <limits>
@@ -19,29 +19,29 @@ struct Ground {
   double slope_x = 0, slope_y = 0;  ///< of the height by x and y of the world
 };
 
-/// The heightmaps and planes among the collision shapes of the scenery. Where several lie one over the other, the
-/// highest is the ground, as what is below a surface is solid. Surfaces that look down or sideways (more than 84 deg
-/// off) are no ground.
+/// Heightmaps and planes among the collision shapes of the scenery. If several lie one over the other, the highest is
+/// the ground, because all below a surface is solid. Surfaces that face down or sideways (more than 84 deg off) are not
+/// ground.
 class Terrain {
  public:
-  /// Reads the heightmaps, when it is called first. [setup]
+  /// Reads the heightmaps at the first call. [setup]
   void connect(const Connector& c);
 
   bool has_heightmaps() const { return !tiles_.empty(); }
-  /// Of the scenery, what is ground, in the order of objects. [setup]
+  /// Returns the shapes of the scenery that are ground, in the order of objects. [setup]
   const std::vector<ShapeOfObject>& shapes() const { return shapes_; }
-  /// m: the shortest side of a cell; infinite without heightmaps.
+  /// Returns the shortest side of a cell (m); infinite without heightmaps.
   double resolution() const { return resolution_; }
 
-  /// Nothing beyond the rims of all heightmaps where there is no plane. [step]
+  /// Returns the ground; nothing beyond the rims of all heightmaps if there is no plane. [step]
   std::optional<Ground> ground_at(double x, double y) const;
 
  private:
   struct Tile {
     Heightmap map;
-    Pose shape, inverse;  ///< of the map's frame in the world; of the world in the map's frame
+    Pose shape, inverse;  ///< pose of the map's frame in the world; of the world in the map's frame
     bool is_level = true;
-    double cosine = 1, sine = 0;              ///< of the yaw of one that is level
+    double cosine = 1, sine = 0;              ///< of the yaw, if the map is level
     double cells_per_x = 1, cells_per_y = 1;  ///< 1/m
 
     Tile(const Heightmap& m, const Pose& pose);

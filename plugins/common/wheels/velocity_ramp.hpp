@@ -5,7 +5,7 @@
 
 namespace muro::wheels {
 
-/// Accelerations from here on are as good as none: the velocity jumps.
+/// Acceleration from which on there is no limit: the velocity jumps.
 inline constexpr double unlimited = 1e9;
 
 /// The velocity (rad/s) of a joint during a step: constant acceleration until `end`, then constant.
@@ -17,11 +17,12 @@ struct VelocityRamp {
 
   double velocity_at(double t) const { return t < end ? initial + acceleration * t : final; }
   double acceleration_at(double t) const { return t < end ? acceleration : 0; }
-  /// The angle (rad) by which the joint turns in the first `t` seconds, t >= end.
+  /// Returns the angle (rad) by which the joint turns in the first `t` seconds, t >= end.
   double angle(double t) const { return 0.5 * (initial + final) * end + final * (t - end); }
 };
 
-/// From velocity `from` to `target` with an acceleration of at most `max_acceleration`, in a step of `dt` (s).
+/// Returns the ramp from velocity `from` to `target`, with an acceleration of at most `max_acceleration`, in a step of
+/// `dt` (s).
 inline VelocityRamp velocity_ramp(double from, double target, double max_acceleration, double dt) {
   if (max_acceleration >= unlimited || from == target) return {target, 0, 0, target};
   const double needed = std::abs(target - from) / max_acceleration;

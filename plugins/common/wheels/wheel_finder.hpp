@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which joints of a model are wheels: what find_side_wheels, find_steered_wheels and find_omni_wheels have in common.
+// Search for the wheels of a model: the common part of find_side_wheels, find_steered_wheels and find_omni_wheels.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@ namespace muro::wheels {
 
 /// A wheel that rolls on the plane below the base.
 struct Wheel {
-  std::uint32_t link = 0;      ///< of the robot: that to which the wheel's joint leads
+  std::uint32_t link = 0;      ///< link of the robot to which the wheel's joint leads
   Vec3 centre = Vec3::Zero();  ///< m, in the base's frame, joints at 0
   double radius = 0;           ///< m
   double direction = 1;        ///< 1: a positive joint velocity rolls forward (axis along +y); -1: backward
   JointLimits limits;
-  Vec3 axis = Vec3::UnitY();  ///< of its joint: unit, in the base's frame, joints at 0
+  Vec3 axis = Vec3::UnitY();  ///< axis of its joint: unit, in the base's frame, joints at 0
 };
 
-/// Looks at the joints and shapes of a robot, all joints at 0. Joint `i` is the one that leads to link `i`.
+/// Inspects the joints and shapes of a robot, all joints at 0. Joint `i` is the one that leads to link `i`.
 class WheelFinder {
  public:
   static constexpr double cos_tolerance = 0.995;  ///< directions are parallel up to 0.1 rad
@@ -41,13 +41,13 @@ class WheelFinder {
   }
 
   const Link& link(std::size_t i) const { return robot_.links[i]; }
-  /// The axis of joint `i` in the base's frame, and a point on it.
+  /// Axis of joint `i` in the base's frame, and a point on it.
   Vec3 axis(std::size_t i) const { return in_base_[i].orientation * robot_.links[i].axis; }
   const Vec3& origin(std::size_t i) const { return in_base_[i].position; }
-  /// The link that `i` hangs on; 0: the base.
+  /// Returns the parent of link `i`; 0: the base.
   std::size_t parent(std::size_t i) const { return std::size_t(robot_.links[i].parent); }
 
-  /// Whether joint `i` can turn without end, driven or by itself; otherwise `why` says what keeps it.
+  /// Whether joint `i` can turn without end, driven or on its own; otherwise `why` gives the reason.
   bool turns_freely(std::size_t i, std::string& why) const {
     const Link& l = robot_.links[i];
     if (l.joint != JointKind::revolute) return reject(why, "does not turn");
@@ -59,9 +59,9 @@ class WheelFinder {
     return std::isfinite(robot_.links[i].limits.lower) || std::isfinite(robot_.links[i].limits.upper);
   }
 
-  /// The wheel of joint `i`, with the radius and centre of its shape: the largest cylinder or sphere about the axis,
-  /// among the collision shapes of the links that the joint carries rigidly, else among their visual shapes. Without
-  /// such a shape the radius is 0.
+  /// Returns the wheel of joint `i`, with the radius and centre of its shape. That is the largest cylinder or sphere
+  /// about the axis, among the collision shapes of the links that the joint carries rigidly, or else among their visual
+  /// shapes. If there is no such shape, the radius is 0.
   Wheel wheel(std::size_t i) const {
     Wheel found{std::uint32_t(i), origin(i), 0, axis(i).y() > 0 ? 1.0 : -1.0, robot_.links[i].limits, axis(i)};
     for (const Key<Shape>& key : {keys::collision_shapes, keys::visual_shapes}) {
@@ -75,7 +75,7 @@ class WheelFinder {
     return found;
   }
 
-  /// The joint that the user names.
+  /// Returns the joint that the user names.
   std::size_t joint(std::string_view wanted) const {
     for (std::size_t i = 0; i < robot_.links.size(); ++i)
       if (robot_.links[i].joint != JointKind::fixed && name(i) == quote(wanted)) return i;
@@ -86,8 +86,8 @@ class WheelFinder {
                 "; its joints are:" + (all.empty() ? " none" : all));
   }
 
-  /// The wheel of the joint that the user names. Its axis must satisfy `fits`, which the user knows as `wanted`. A
-  /// `radius` (m) above 0 stands for that of its shape.
+  /// Returns the wheel of the joint that the user names. Its axis must satisfy `fits`; messages describe it as
+  /// `wanted`. A `radius` (m) above 0 replaces that of its shape.
   template <class Fits>
   Wheel named(std::string_view wanted_joint, double radius, const Fits& fits, const char* wanted) const {
     const std::size_t i = joint(wanted_joint);
@@ -103,8 +103,8 @@ class WheelFinder {
     return found;
   }
 
-  /// Every joint that turns, each with what `judge(i, what)` finds, true for a wheel; those with limits that are none
-  /// are only counted.
+  /// Returns a list of every joint that turns, each with the text of `judge(i, what)`, which returns true for a wheel.
+  /// Joints with limits that are not wheels are only counted.
   template <class Judge>
   std::string what_was_found(const Judge& judge) const {
     std::string all;
@@ -134,7 +134,7 @@ class WheelFinder {
     };
     return "(" + number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + ")";
   }
-  /// Joint `i` as its model names it.
+  /// Returns the name of joint `i` in its model.
   std::string name(std::size_t i) const {
     return quote(connector_.object_name(robot_.links[i].joint_object).substr(robot_.name.size() + 1));
   }
@@ -155,7 +155,7 @@ class WheelFinder {
   const Connector& connector_;
   const RobotView& robot_;
   std::vector<Pose> in_base_;           ///< of every link, joints at 0
-  std::vector<std::size_t> welded_to_;  ///< the link to which fixed joints tie this one, or itself
+  std::vector<std::size_t> welded_to_;  ///< the link to which fixed joints attach this one, or itself
 };
 
 }  // namespace muro::wheels

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Motion of vehicles the velocity of whose base is linear in the speeds of their wheels.
+// Motion of vehicles for which the velocity of the base is linear in the speeds of their wheels.
 #pragma once
 
 #include "motion_description.hpp"
@@ -31,7 +31,7 @@ struct WheelJacobian {
   double max_speed = 0;        ///< rad/s
   PlanarTwist column;          ///< of the Jacobian: velocity of the base per rad/s of the wheel's joint
   PlanarTwist inverse_row;     ///< rad/s of the joint per m/s along x, m/s along y and rad/s of the base
-  Vec3 lowest = Vec3::Zero();  ///< m: where it stands on the ground
+  Vec3 lowest = Vec3::Zero();  ///< m: the point that stands on the ground
   double radius = 0;           ///< m
 
   double speed_at(const PlanarTwist& v) const { return std::clamp(dot(inverse_row, v), -max_speed, max_speed); }
@@ -45,7 +45,7 @@ struct RampedWheel {
   VelocityRamp ramp;  ///< of the present step
 };
 
-/// What is kept of a robot.
+/// Data of a robot.
 struct WheeledRobot {
   Out<Pose> pose;
   Out<Twist> twist;
@@ -55,8 +55,8 @@ struct WheeledRobot {
   ContactStop stop;
 };
 
-/// What such motions have in common; each says in `jacobian` what its wheels do. Its descriptions have the parameters
-/// `max_wheel_acceleration` and `on_contact`.
+/// Common part of such motions. Each defines in `jacobian_of` the effect of its wheels. Their descriptions have the
+/// parameters `max_wheel_acceleration` and `on_contact`.
 class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
  public:
   void connect_by_name(Connector& c) override {
@@ -83,7 +83,7 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
     accelerations_.end_step(range, step.dt);
   }
 
-  /// The wheels turn as fits the base's velocity best.
+  /// Turns the wheels in the way that fits the base's velocity best.
   void on_handover(std::uint32_t item) override {
     const WheeledRobot& r = robot(item);
     const PlanarTwist moving = in_plane(*r.pose, *r.twist);
@@ -129,8 +129,8 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
     return r;
   }
 
-  /// The speeds of all wheels are linear in time between the ends of their ramps: from each end to the next one goes an
-  /// arc, or, while wheels speed up, an accelerated one.
+  /// Moves the base. The speeds of all wheels are linear in time between the ends of their ramps. From each end to the
+  /// next one the base moves on an arc or, while wheels accelerate, on an accelerated arc.
   void move_base(const WheeledRobot& r, std::span<const RampedWheel> wheels, double dt) const {
     Pose& pose = *r.pose;
     PlanarTwist velocity;
@@ -158,7 +158,7 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
                   "`joint.velocity.target`");
   }
 
-  /// m/s: no wheels move the base faster in this step.
+  /// Returns a limit (m/s) of the speed that wheels give the base in this step.
   static double fastest_along(std::span<const RampedWheel> wheels) {
     double sum = 0;
     for (const RampedWheel& w : wheels)

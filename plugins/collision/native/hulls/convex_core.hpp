@@ -6,11 +6,11 @@
 
 namespace muro::native {
 
-/// A convex shape at a pose without its rounding: all points within `ball` of the core make the shape.
+/// A convex shape at a pose, without its rounding. The shape consists of all points within `ball` of the core.
 struct ConvexCore {
   enum class Kind {
-    point,     ///< of a sphere
-    segment,   ///< of a capsule
+    point,     ///< core of a sphere
+    segment,   ///< core of a capsule
     box,       //
     cylinder,  //
     hull,      //
@@ -19,13 +19,13 @@ struct ConvexCore {
   Kind kind = Kind::point;
   double ball = 0;                    ///< m
   Vec3 centre = Vec3::Zero();         ///< m, world: a point of the core
-  Mat3 axes = Mat3::Identity();       ///< in the world; not of points and triangles
-  Vec3 half = Vec3::Zero();           ///< m, of a box, segment (z) or cylinder
-  const HullSupport* hull = nullptr;  ///< of a hull
-  Vec3 origin = Vec3::Zero();         ///< m, world: of a hull's frame
-  Vec3 corners[3];                    ///< m, world: of a triangle
+  Mat3 axes = Mat3::Identity();       ///< in the world; not used for points and triangles
+  Vec3 half = Vec3::Zero();           ///< m, half size of a box, segment (z) or cylinder
+  const HullSupport* hull = nullptr;  ///< only of a hull
+  Vec3 origin = Vec3::Zero();         ///< m, world: origin of a hull's frame
+  Vec3 corners[3];                    ///< m, world: corners of a triangle
 
-  /// A sphere, capsule, box or cylinder.
+  /// Returns the core of a sphere, capsule, box or cylinder.
   static ConvexCore of(const TransformedShape& shape) {
     ConvexCore core;
     core.centre = shape.centre, core.axes = shape.axes, core.half = shape.half;
@@ -46,7 +46,7 @@ struct ConvexCore {
     }
     return core;
   }
-  /// `inside`: m, world.
+  /// Returns the core of a hull whose frame is at `pose`. `inside` (m, world): a point of the hull.
   static ConvexCore of(const HullSupport& hull, const Pose& pose, const Vec3& inside) {
     ConvexCore core;
     core.kind = Kind::hull;
@@ -64,7 +64,7 @@ struct ConvexCore {
 
   bool has_volume() const { return kind == Kind::box || kind == Kind::cylinder || kind == Kind::hull; }
 
-  /// The point of the core (m, world) that lies farthest along `n`, of any length but zero.
+  /// Returns the point of the core (m, world) that lies farthest along `n`. `n` may have any length but zero.
   Vec3 support(const Vec3& n) const {
     switch (kind) {
       case Kind::point:
@@ -81,7 +81,7 @@ struct ConvexCore {
         const double along = n.dot(u);
         const Vec3 across = n - along * u, end = centre + std::copysign(half.z(), along) * u;
         const double steep = across.norm();
-        // seen along its axis every point of the rim serves
+        // along the axis all points of the rim are equally far, so this takes one of them
         return steep > 1e-9 * n.norm() ? Vec3(end + across * (half.x() / steep)) : Vec3(end + half.x() * axes.col(0));
       }
       case Kind::hull:
@@ -94,16 +94,16 @@ struct ConvexCore {
   }
 };
 
-/// The Minkowski difference of two cores, second minus first, as DepthFunction is that of two primitives.
+/// Minkowski difference of two cores, second minus first. DepthFunction is the same for two primitives.
 struct CorePair {
   const ConvexCore &first, &second;
-  Vec3 offset;  ///< m, from a point of the first to one of the second
-  double ball;  ///< m, of both
+  Vec3 offset;  ///< m, from a point of the first core to a point of the second
+  double ball;  ///< m, of both together
 
   CorePair(const ConvexCore& a, const ConvexCore& b)
       : first(a), second(b), offset(b.centre - a.centre), ball(a.ball + b.ball) {}
 
-  /// The point of the difference that lies farthest along `n`, of any length but zero.
+  /// Returns the point of the difference that lies farthest along `n`. `n` may have any length but zero.
   Vec3 support(const Vec3& n) const { return second.support(n) - first.support(-n); }
 };
 

@@ -9,20 +9,20 @@
 namespace muro::native {
 namespace {
 
-/// A convex polytope of triangles, its corners on the surface of a Minkowski difference.
+/// A convex polytope of triangles with its corners on the surface of a Minkowski difference.
 class Polytope {
  public:
   static constexpr int max_corners = 128;
 
   struct Face {
     int corners[3];     ///< counter-clockwise seen from outside
-    int neighbours[3];  ///< across the edge behind corner k
+    int neighbours[3];  ///< across the edge that begins at corner k
     Vec3 normal;        ///< unit, outward
     double distance;    ///< m, of its plane from the origin; negative: the origin is outside
     bool is_alive, is_visible;
   };
 
-  /// False: the corners lie in a plane.
+  /// Returns false if the corners lie in a plane.
   bool start(const Vec3 (&p)[4]) {
     const Vec3 n = (p[1] - p[0]).cross(p[2] - p[0]);
     const double height = n.dot(p[3] - p[0]);
@@ -30,7 +30,7 @@ class Polytope {
     for (int k = 0; k < 4; ++k) corners_[std::size_t(k)] = p[k];
     corner_count_ = 4;
     if (height > 0) std::swap(corners_[1], corners_[2]);
-    // the fourth corner is on the side against the normal of the first face
+    // the fourth corner is on the back of the first face
     static constexpr int corners[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
     static constexpr int neighbours[4][3] = {{1, 2, 3}, {3, 2, 0}, {1, 3, 0}, {2, 1, 0}};
     for (int f = 0; f < 4; ++f) set_face(f, corners[f], neighbours[f]);
@@ -39,7 +39,7 @@ class Polytope {
     return true;
   }
 
-  /// The face whose plane is nearest to the origin, or farthest on the wrong side of it.
+  /// Returns the face whose plane is nearest to the origin, or farthest on the wrong side of it.
   int nearest_face() const {
     int best = -1;
     double least = std::numeric_limits<double>::infinity();
@@ -49,14 +49,14 @@ class Polytope {
   }
   const Face& face(int number) const { return at(number); }
 
-  /// Takes in a point beyond a face. False: no room, or rounding has made the polytope unfit.
+  /// Adds a point beyond a face. Returns false if there is no room, or if rounding has made the polytope unfit.
   bool expand(int seen, const Vec3& point) {
     if (corner_count_ == max_corners) return false;
     const int tip = corner_count_++;
     corners_[std::size_t(tip)] = point;
     visible_count_ = 0;
     mark(seen);
-    for (int i = 0; i < visible_count_; ++i) {  // grows
+    for (int i = 0; i < visible_count_; ++i) {  // the count grows
       const Face& f = at(visible_[std::size_t(i)]);
       for (const int n : f.neighbours)
         if (!at(n).is_visible && at(n).normal.dot(point) > at(n).distance) mark(n);
@@ -89,16 +89,16 @@ class Polytope {
     if (area > 1e-12 * longest) {
       f.normal = normal / area;
       f.distance = f.normal.dot((a + b + c) / 3);
-    } else {  // a sliver, which is never looked at
+    } else {  // a sliver, which is never the nearest face
       f.normal = Vec3::Zero();
       f.distance = std::numeric_limits<double>::infinity();
     }
   }
 
-  /// The visible faces make room for a fan from the tip to their rim.
+  /// Replaces the visible faces by a fan from the tip to their rim.
   bool replace_visible(int tip) {
     std::array<Edge, max_corners> rim;
-    std::array<int, max_corners> leaving;  // which edge of the rim leaves a corner
+    std::array<int, max_corners> leaving;  // edge of the rim that leaves each corner
     leaving.fill(-1);
     int edges = 0;
     for (int i = 0; i < visible_count_; ++i) {
@@ -123,7 +123,7 @@ class Polytope {
     for (int e = 0; walked < edges; ++walked) {
       const Edge& edge = rim[std::size_t(e)];
       const int after = leaving[std::size_t(edge.to)];
-      if (after < 0 || (after == 0) != (walked + 1 == edges)) return false;  // not one loop
+      if (after < 0 || (after == 0) != (walked + 1 == edges)) return false;  // the rim is not one loop
       at(number[std::size_t(after)]).neighbours[2] = number[std::size_t(e)];
       e = after;
     }
@@ -145,7 +145,7 @@ class Polytope {
   int corner_count_ = 0, face_count_ = 0, visible_count_ = 0, free_count_ = 0;
 };
 
-/// Looks for the direction in which the difference reaches least far.
+/// Searches the direction in which the difference reaches least far.
 class LeastReach {
  public:
   explicit LeastReach(const CorePair& pair) : pair_(pair) {}
@@ -169,14 +169,14 @@ class LeastReach {
   }
 
  private:
-  /// The farthest point along a unit vector.
+  /// Returns the farthest point along a unit vector, and keeps the direction if it is the best so far.
   Vec3 reach(const Vec3& n) {
     const Vec3 point = pair_.support(n);
     if (const double depth = n.dot(point); depth < best_.depth) best_ = {depth, n};
     return point;
   }
 
-  /// Four far points of the difference. False: it is flat, or does not hold the origin.
+  /// Chooses four far points of the difference. Returns false if it is flat, or does not hold the origin.
   bool choose_corners(Vec3 (&p)[4]) {
     const double length = pair_.offset.norm();
     const Vec3 away = length > 0 ? Vec3(pair_.offset / -length) : Vec3(Vec3::UnitX());

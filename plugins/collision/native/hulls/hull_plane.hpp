@@ -8,8 +8,8 @@
 
 namespace muro::native {
 
-/// Adds the vertices of a hull that lie below a plane, each half way between vertex and plane; of more than eight the
-/// deepest and the outermost. `body`: where that of the hull is.
+/// Adds the vertices of a hull that lie below a plane. Each point is half way between vertex and plane. Of more than
+/// eight points it adds the deepest and the outermost. `body`: pose of the body of the hull.
 void add_hull_on_plane(const KernelShape& hull, const Pose& body, const TransformedShape& plane,
                        std::vector<ContactPoint>& points);
 

@@ -7,7 +7,7 @@
 namespace muro::native {
 namespace {
 
-/// The bounds of a shape in the frame of a mesh.
+/// Returns the bounds of a shape in the frame of a mesh.
 Aabb bounds_in(const Pose& frame, const TransformedShape& shape) {
   const Mat3 turn = frame.orientation.toRotationMatrix().transpose();
   TransformedShape local = shape;
@@ -16,7 +16,7 @@ Aabb bounds_in(const Pose& frame, const TransformedShape& shape) {
   return bounds_of(local);
 }
 
-/// The corner, edge or face of a triangle that lies farthest along `n`.
+/// Returns the corner, edge or face of a triangle that lies farthest along `n`.
 contact_geometry::Feature triangle_feature(const Vec3 (&corners)[3], const Vec3& n, const Vec3& normal) {
   const double size = (corners[1] - corners[0]).norm() + (corners[2] - corners[0]).norm();
   double farthest = -std::numeric_limits<double>::infinity();
@@ -35,7 +35,8 @@ contact_geometry::Feature triangle_feature(const Vec3 (&corners)[3], const Vec3&
   return f;
 }
 
-/// Of a segment that crosses a triangle, or a point on it. They sweep out a prism, whose faces are its directions.
+/// Separates a segment, or a point, from a triangle that it crosses. Tries the face normals of the prism that both
+/// sweep out.
 Penetration flat_translation(const CorePair& pair, const Vec3& normal) {
   const ConvexCore &core = pair.first, &triangle = pair.second;
   Penetration best{std::numeric_limits<double>::infinity(), normal};

@@ -6,8 +6,8 @@
 
 namespace muro::native {
 
-/// Adds a contact for each triangle of an exact mesh that a convex shape overlaps: the least translation that parts the
-/// two, and a point of the patch in which they touch. `core`: of the shape.
+/// Adds a contact for each triangle of an exact mesh that a convex shape overlaps: the least translation that separates
+/// the two, and a point of the patch in which they touch. `core`: core of the shape.
 void find_triangles(const CollisionObject& shape, const ConvexCore& core, const CollisionObject& mesh,
                     std::vector<EngineContact>& found);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers of four bytes that lie side by side in memory, at a place of its own for each lane.
+// Loads and stores of 4-byte numbers that lie side by side in memory. Each lane has its own place.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ inline namespace MURO_ISA {
 
 namespace detail {
 
-/// The last 52 bits of each element, as a number of 64 bits.
+/// Returns the last 52 bits of each element as a 64-bit number.
 template <class Vector>
 MURO_INLINE Vector last_bits(const Vector& v) {
   constexpr std::int64_t all = (std::int64_t(1) << 52) - 1;
@@ -28,7 +28,7 @@ MURO_INLINE Vector last_bits(const Vector& v) {
 typedef float Floats2 __attribute__((vector_size(8)));
 typedef float Floats4 __attribute__((vector_size(16)));
 
-/// Numbers `first` on of those in `groups`, as many as `Vector` holds.
+/// Returns the numbers of `groups` from number `first` on, as many as `Vector` holds.
 template <class Vector, int first = 0>
 MURO_INLINE Vector widened(const Floats4* groups) {
   namespace vectors = lane::vectors;
@@ -47,10 +47,10 @@ MURO_INLINE Vector widened(const Floats4* groups) {
 
 }  // namespace detail
 
-/// The whole numbers, 0 to 2^51, that `s` holds, to one place a lane.
+/// Stores the whole numbers (0 to 2^51) that `s` holds, one to each place of `to`.
 template <class S>
 MURO_INLINE void store_whole(std::int64_t* to, const S& s) {
-  const S sum = s + S(0x1p52);  // which has the number in its last 52 bits
+  const S sum = s + S(0x1p52);  // it has the number in its last 52 bits
   if constexpr (lane::count_of<S> == 1) {
     const double bits = detail::last_bits(sum);
     __builtin_memcpy(to, &bits, sizeof bits);
@@ -60,7 +60,8 @@ MURO_INLINE void store_whole(std::int64_t* to, const S& s) {
   }
 }
 
-/// Number k of each lane to `to[k]`; `four(at)`: the four numbers of the lane that has the whole number `at`.
+/// Loads number k of each lane to `to[k]`. `four(place)` returns the four numbers of the lane that has `place` in `at`,
+/// a whole number.
 template <class S, class Four>
 MURO_INLINE void load_fours(const S& at, const Four& four, S (&to)[4]) {
   using detail::Floats4;
@@ -86,13 +87,13 @@ MURO_INLINE void load_fours(const S& at, const Four& four, S (&to)[4]) {
   }
 }
 
-/// The four numbers at a place.
+/// Returns the four numbers at a place.
 MURO_INLINE detail::Floats4 four_at(const float* from) {
   detail::Floats4 v;
   __builtin_memcpy(&v, from, sizeof v);
   return v;
 }
-/// Two numbers at one place, and two at another.
+/// Returns two numbers at one place, followed by two at another.
 MURO_INLINE detail::Floats4 two_and_two(const float* first, const float* second) {
   detail::Floats2 a, b;
   __builtin_memcpy(&a, first, sizeof a);

@@ -10,7 +10,7 @@ namespace {
 using namespace lanes;
 
 #if defined(__AVX512F__)
-/// Row i of the eight by four of x and y, z and depth, which were interleaved by pairs before.
+/// Stores row i of a table of eight rows and four columns (x, y, z, depth). Pairs xy and zd are interleaved before.
 template <int i, class Vector>
 MURO_INLINE void store_row(double* to, Vector xy, Vector zd, unsigned which) {
   constexpr int pair = i & 6;
@@ -20,7 +20,7 @@ MURO_INLINE void store_row(double* to, Vector xy, Vector zd, unsigned which) {
 }
 #endif
 
-/// The numbers of a contact that change, to those places whose bit is set in `which`, from number `first` on.
+/// Stores the numbers of a contact that change, from number `first` on, to the places whose bit is set in `which`.
 template <class S>
 MURO_INLINE void store_contacts(const Places<S, double>& to, std::int64_t first, const V3<S>& point, S depth,
                                 unsigned which) {
@@ -57,12 +57,12 @@ MURO_INLINE void store_contacts(const Places<S, double>& to, std::int64_t first,
     }
 }
 
-/// Seven numbers to each place, from number `first` on.
+/// Stores seven numbers to each place, from number `first` on.
 template <class S>
 MURO_INLINE void store_sevens(const Places<S, double>& to, std::int64_t first, const S (&v)[7]) {
 #if defined(__AVX512F__)
   if constexpr (count_of<S> == 8) {
-    __m512d pairs[8];  // of numbers 2 k and 2 k + 1, in lanes 0, 2, 4, 6, and in 1, 3, 5, 7
+    __m512d pairs[8];  // numbers 2 k and 2 k + 1, of lanes 0, 2, 4, 6, and of 1, 3, 5, 7
     for (int k = 0; k < 4; ++k) {
       const __m512d a(v[2 * k].v), b(v[k < 3 ? 2 * k + 1 : 6].v);
       pairs[k] = _mm512_unpacklo_pd(a, b), pairs[4 + k] = _mm512_unpackhi_pd(a, b);
@@ -81,12 +81,12 @@ MURO_INLINE void store_sevens(const Places<S, double>& to, std::int64_t first, c
   lane::store_rows(to, first, v);
 }
 
-/// Appends contacts to those of their robots.
+/// Appends contacts to the lists of their robots.
 template <class S>
 struct Appender {
   const int stride;
-  const unsigned all;         ///< a bit a robot
-  Places<S, double> first{};  ///< `next` numbers behind it a robot's next contact begins
+  const unsigned all;         ///< one bit for each robot
+  Places<S, double> first{};  ///< a robot's next contact begins `next` numbers after it
   std::int64_t next = 0;
   S points{0};       ///< the present word of the signature
   double scale = 1;  ///< of the present slot in it
@@ -101,8 +101,8 @@ struct Appender {
     next += stride;
   }
 
-  /// On a heightmap, where robots differ in what touches. All write, and those that have no contact here write their
-  /// next one over it; lanes beyond `all` do what the first robot does.
+  /// Appends on a heightmap, where robots differ in what touches. All lanes write. A robot without a contact here
+  /// overwrites it with its next one. Lanes beyond `all` do what the first robot does.
   MURO_INLINE void operator()(MaskOf<S> below, const V3<S>& point, const V3<S>& normal, S depth, int number) {
     static_assert(normal_number == 3 && depth_number == 6);
     points += select(below, S(scale * double(std::int64_t(1) << number)), S(0));
@@ -112,14 +112,14 @@ struct Appender {
     for (int i = 0; i < count_of<S>; ++i) first.at[i] += moves[i];
   }
 
-  /// Out of the way of the common case.
+  /// Handles the rare case that not all lanes have the contact.
   [[gnu::noinline]] void append_some(const V3<S>& point, const S& depth, unsigned which) {
     store_contacts(first, next, point, depth, which);
     for (int i = 0; i < count_of<S>; ++i) first.at[i] -= which >> i & 1 ? 0 : stride;
   }
 };
 
-/// As many robots as the scalar has values, from number `first` on. Returns what GroundKernels does.
+/// Processes as many robots as the scalar has values, from number `first` on. Returns the bits of GroundKernels.
 template <class S>
 unsigned process(const GroundBatch& batch, int first) {
   const int rest = batch.used - first, used = rest < count_of<S> ? rest : count_of<S>;
@@ -133,8 +133,8 @@ unsigned process(const GroundBatch& batch, int first) {
     signatures.at[i] = batch.signatures[robot];
   }
   unsigned changed = 0, left_over = 0;
-  int word = 0, slot = 0;  // of the present word
-  int slot_number = 0;     // of all slots
+  int word = 0, slot = 0;  // `slot`: in the present word
+  int slot_number = 0;     // among all slots
   const auto leave = [&](MaskOf<S> whose) {
     const unsigned now = bits(whose) & append.all;
     if (now == 0) return;
@@ -150,8 +150,8 @@ unsigned process(const GroundBatch& batch, int first) {
     slot = 0;
     ++word;
   };
-  std::int64_t kept_number = 0;  // of a robot's clearances
-  /// A shape of which the kernel can tell no more than whether it is above the ground.
+  std::int64_t kept_number = 0;  // among a robot's clearances
+  /// Handles a shape for which the kernel can only find whether it is above the ground.
   const auto look_at_clearance = [&](const KernelShape& shape, const BodyFrame<S>& body, const TerrainGrid& terrain) {
     Places<S, double> kept;
     for (int i = 0; i < count_of<S>; ++i)

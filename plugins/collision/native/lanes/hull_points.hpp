@@ -6,8 +6,8 @@
 namespace muro::native::lanes {
 inline namespace MURO_ISA {
 
-/// Gives `sink(mask, point, depth, number)` the vertices of a hull that lie below a plane, by rising number, as
-/// PlanePoints does. `body`: of the shape.
+/// Calls `sink(mask, point, depth, number)` for the vertices of a hull that lie below a plane, by rising number, as
+/// PlanePoints does. `body`: frame of the body of the hull.
 template <class S, bool level, class Sink>
 MURO_INLINE void give_hull_points(const KernelShape& shape, const BodyFrame<S>& body, const Plane<S, level>& plane,
                                   Sink& sink) {

@@ -7,13 +7,13 @@
 namespace muro::native::lanes {
 inline namespace MURO_ISA {
 
-/// What is known of an earlier step: how far a shape could move from where its body was then without touching. Results
-/// do not depend on it. In each lane numbers of its own (kept_numbers): position and orientation of the body, and half
-/// of the square of how far.
+/// Clearance kept from an earlier step: how far a shape could move without touching from where its body was then.
+/// Results do not depend on it. Each lane has its own numbers (numbers_of_clearance): position and orientation of the
+/// body, and half of the square of that distance.
 template <class S>
 class KeptClearance {
  public:
-  /// `reach` (m): how far the shape reaches from the origin of its body.
+  /// `reach` (m): farthest distance of the shape from the origin of its body.
   MURO_INLINE KeptClearance(const lane::Places<S, double>& kept, const contact_geometry::BodyFrame<S>& body,
                             double reach)
       : kept_(kept) {
@@ -28,12 +28,12 @@ class KeptClearance {
       const S d = now[k] - before[k];
       (k < 3 ? way2 : turn2) += d * d;
     }
-    // a turn between unit quaternions moves a point by at most twice their distance times its own from the origin
+    // a turn between unit quaternions moves a point by at most 2 * (their distance) * (its distance from the origin)
     still_clear_ = way2 + S(4 * reach * reach) * turn2 < before[7];
   }
 
   lane::MaskOf<S> still_clear() const { return still_clear_; }
-  /// `far` (m): from now on; `which`: bits of lanes.
+  /// Keeps `far` (m) as the clearance from now on. `which`: bits of the lanes concerned.
   MURO_INLINE void keep(S far, unsigned which) const {
     const S far_or_none = lane::select(far > S(0), far, S(0));
     lane::store_rows(

@@ -11,30 +11,30 @@ namespace muro::native {
 
 using contact_geometry::PoseLocation, contact_geometry::RobotPoses;
 
-/// As muro::ShapeKind, whose header kernels cannot include.
+/// Copy of muro::ShapeKind, because kernels cannot include its header.
 enum class KernelShapeKind : std::uint32_t { box, sphere, cylinder, capsule, plane, mesh, heightmap };
 
 /// A shape in its body, as plain numbers.
 struct KernelShape {
   KernelShapeKind kind = KernelShapeKind::box;
-  std::uint32_t body = 0;  ///< which of a robot's bodies with shapes, from 0
-  PoseLocation pose;       ///< of that body
-  /// m. box: half lengths. sphere: the radius three times. cylinder, capsule: radius, radius, half the
-  /// length along z (of a capsule: of its straight part). plane: unused. mesh, heightmap: those of the box around it.
+  std::uint32_t body = 0;  ///< index among the robot's bodies with shapes, from 0
+  PoseLocation pose;       ///< location of the pose of that body
+  /// Half size (m). Box: half lengths. Sphere: the radius three times. Cylinder, capsule: radius, radius, half the
+  /// length along z (capsule: of its straight part). Plane: unused. Mesh, heightmap: half lengths of the box around it.
   double half[3] = {};
   double centre[3] = {};  ///< m, in the body
   double axes[9] = {};    ///< of the shape in the body, column by column
-  /// Where axes of the shape are axes of the body. Axis k of the shape is axis |along[k]| - 1 of the body, opposite if
-  /// negative; 0: it is none of them.
+  /// Axes of the shape that are axes of the body. Axis k of the shape is axis |along[k]| - 1 of the body, opposite if
+  /// negative. 0: it is no axis of the body.
   int along[3] = {};
   bool is_centred = false;  ///< `centre` is 0
-  /// m, in the body: x, y, z of each vertex of the hull of a mesh.
+  /// Vertices of the hull of a mesh: x, y, z of each (m, in the body).
   const double* vertices = nullptr;
   int vertex_count = 0;
 
-  /// A sphere or cylinder.
+  /// Whether it is a sphere or cylinder.
   MURO_INLINE bool is_round() const { return kind == KernelShapeKind::sphere || kind == KernelShapeKind::cylinder; }
-  /// m: how far it reaches from the origin of its body, at most.
+  /// Returns an upper bound (m) of the distance of its points from the origin of its body.
   MURO_INLINE double reach() const {
     return __builtin_sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]) +
            (kind == KernelShapeKind::capsule ? half[0] : 0) +
@@ -57,13 +57,13 @@ struct TerrainGrid;
 /// A plane of the scenery, or a heightmap.
 struct Ground {
   GroundPlane plane;
-  const TerrainGrid* terrain = nullptr;  ///< of a heightmap
+  const TerrainGrid* terrain = nullptr;  ///< null: `plane` is used
 };
 
 namespace lanes {
 inline namespace MURO_ISA {
 
-// hides ::abs and the like
+// hides ::abs and similar names
 using contact_geometry::BodyFrame;
 using lane::abs, lane::any, lane::as_read, lane::bits, lane::count_of, lane::load, lane::MaskOf, lane::max, lane::min,
     lane::Places, lane::select, lane::sqrt, lane::V3;
@@ -76,7 +76,7 @@ class ShapeInWorld {
 
   KernelShapeKind kind() const { return shape_.kind; }
   const double* half() const { return shape_.half; }
-  /// m, world.
+  /// Centre of the shape (m, world).
   MURO_INLINE V3<S> centre() const {
     return shape_.is_centred ? body_.position() : body_.position() + body_.rotated(shape_.centre);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The points of shapes that lie below a plane.
+// Points of shapes that lie below a plane.
 #pragma once
 
 #include "kernel_shape.hpp"
@@ -7,13 +7,13 @@
 namespace muro::native::lanes {
 inline namespace MURO_ISA {
 
-/// Most planes are level: then products with 0 and with 1 are left out, and nothing else.
+/// A plane. Most planes are `level`: for these, products with 0 and with 1 are omitted, and nothing else.
 template <class S, bool level>
 class Plane {
  public:
   explicit Plane(const GroundPlane& g) : normal_(lane::splat<S>(g.normal)), origin_(lane::splat<S>(g.origin)) {}
 
-  /// The normal times `s`, added to `v`.
+  /// Returns `v` plus `s` times the normal.
   MURO_INLINE V3<S> add_normal(const V3<S>& v, S s) const {
     if constexpr (level) return {v.x, v.y, v.z + s};
     return v + s * normal_;
@@ -22,7 +22,7 @@ class Plane {
     if constexpr (level) return v.z;
     return dot(normal_, v);
   }
-  /// How deep `point` lies below (m).
+  /// Returns how deep (m) `point` lies below the plane.
   MURO_INLINE S depth_of(const V3<S>& point) const {
     if constexpr (level) return origin_.z - point.z;
     return dot(normal_, origin_ - point);
@@ -32,12 +32,12 @@ class Plane {
   const V3<S> normal_, origin_;
 };
 
-/// Gives `sink(mask, point, depth, number)` the points of a shape that may lie below a plane, each point half way
-/// between the two surfaces: sphere: its lowest point. box: its corners. capsule: of either end the lowest point.
-/// cylinder: of the rim of either end the lowest point, the highest, and the two between: so one on its side rests on
-/// the ends of its lowest line, one that stands upright on four points of its rim, with all steps between. `number` is
-/// the same for the same point, below 8. The mask says who is below; a call where nobody is may be left out.
-/// `Shape` is ShapeInWorld<S>, or what has its functions.
+/// Calls `sink(mask, point, depth, number)` for the points of a shape that may lie below a plane. Each point is half
+/// way between the two surfaces. Sphere: its lowest point. Box: its corners. Capsule: the lowest point of each end.
+/// Cylinder: of the rim of each end the lowest point, the highest, and the two between. So a cylinder on its side rests
+/// on the ends of its lowest line, and an upright one on four points of its rim, with all steps between. `number` is
+/// below 8, and the same for the same point. `mask`: the lanes that are below; a call with none may be omitted. `Shape`
+/// is ShapeInWorld<S>, or has its functions.
 template <class S, class Shape, bool level>
 class PlanePoints {
  public:
@@ -68,7 +68,7 @@ class PlanePoints {
   }
 
  private:
-  /// `point` of the shape is `depth` below.
+  /// Gives `point` of the shape, which is `depth` (m) below the plane.
   template <class Sink>
   MURO_INLINE void lowest(const V3<S>& point, S depth, int number, Sink& sink) const {
     const auto below = depth > S(0);
@@ -97,7 +97,7 @@ class PlanePoints {
     const auto upright = steep <= S(least_tilt_);
     const auto more = upright | (middle > S(0));
     down = down * (r / steep);
-    // Upright any four points serve; those on the axes of the cylinder turn with it.
+    // Any four points suffice when upright; those on the axes of the cylinder turn with it.
     if (any(more)) down = select(upright, r * at_.axis(0), down);
     const V3<S> end = half * u, line = centre_ + down;
     lowest(line + end, deep_ - rise + low, 0, sink);
@@ -131,7 +131,7 @@ class PlanePoints {
   const double least_tilt_;
 };
 
-/// `least_tilt`: sine of the angle below which a cylinder is upright.
+/// Gives the points of PlanePoints. `least_tilt`: sine of the angle below which a cylinder counts as upright.
 template <class S, class Shape, class Sink>
 MURO_INLINE void give_plane_points(const Shape& at, const GroundPlane& plane, Sink& sink, double least_tilt = 1e-9) {
   if (plane.is_level)

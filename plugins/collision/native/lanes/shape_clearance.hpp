@@ -8,7 +8,7 @@
 namespace muro::native::lanes {
 inline namespace MURO_ISA {
 
-/// How far a box, mesh or capsule is above the surface of a heightmap. `Shape` is ShapeInWorld<S>, or what has its
+/// Clearance of a box, mesh or capsule above the surface of a heightmap. `Shape` is ShapeInWorld<S>, or has its
 /// functions.
 template <class S, class Shape>
 class ShapeClearance {
@@ -16,9 +16,9 @@ class ShapeClearance {
   ShapeClearance(const Shape& at, const TerrainGrid& grid)
       : at_(at), grid_(grid), half_(at.half()), radius_(radius_of_all(at.kind(), half_)) {}
 
-  /// How far (m) all of its points may move, in any direction, until it may touch the surface; negative where it may
-  /// touch it now. With least effort: it may be a good deal less than could be told. Elsewhere than in `lanes` any
-  /// number that is not negative.
+  /// Returns the distance (m) that all of its points may move, in any direction, until it may touch the surface;
+  /// negative where it may touch now. The computation is cheap, so the result may be much less than the true distance.
+  /// Outside of `lanes` the result is any number that is not negative.
   MURO_INLINE S find(MaskOf<S> lanes) const {
     const V3<S> centre = to_map(grid_, at_.centre() - lane::splat<S>(grid_.origin));
     const S beside = beyond_rim(grid_, centre, radius_);
@@ -34,14 +34,14 @@ class ShapeClearance {
  private:
   MURO_INLINE V3<S> axis(int k) const { return to_map(grid_, at_.axis(k)); }
 
-  /// How far (m) a box, mesh or capsule reaches from its centre along the upward vector of slopes, times its length.
+  /// Returns the reach (m) of the shape from its centre along the upward vector of slopes, times that vector's length.
   MURO_INLINE S reach_along(const Slopes<S>& slopes) const {
     const S end = S(half_[2]) * abs(slopes.along(axis(2)));
     if (at_.kind() == KernelShapeKind::capsule) return end + S(half_[0]) * sqrt(slopes.up2());
     return S(half_[0]) * abs(slopes.along(axis(0))) + S(half_[1]) * abs(slopes.along(axis(1))) + end;
   }
 
-  /// What `find` gives, where `far` is negative from a closer look.
+  /// Completes the result of `find`: where `far` is negative, computes it more exactly.
   [[gnu::noinline]] S with_closer_look(S far, const V3<S>& centre) const {
     const V3<S> axes[3] = {axis(0), axis(1), axis(2)};
     const double end = at_.kind() == KernelShapeKind::capsule ? half_[0] : 0;
@@ -59,10 +59,10 @@ class ShapeClearance {
     }
     return far;
   }
-  /// In any direction, m; -1: it may touch.
+  /// Returns the clearance in any direction (m); -1: it may touch.
   MURO_INLINE double clearance_of(const BoxOverTerrain& box) const {
     const double beside = 0.25 * radius_;
-    // longer by as much at all sides, a box covers no more than 3^0.5 times that beside what it covers
+    // if all sides of a box move out by a length, it covers at most 3^0.5 times that length beyond what it covered
     if (const double gap = clearance_below(grid_, box, beside); gap > 0)
       return gap < beside / 1.75 ? gap : beside / 1.75;
     return clearance_below(grid_, box, 0) > 0 ? 0 : -1;

@@ -13,10 +13,10 @@ struct BoxOverTerrain {
   double half[3];     ///< m
 };
 
-/// How far (m, at least) all of the surface below a box lies from that side of the box which looks down, and from the
-/// plane of that side where it is at most `beside` (m) along x and y beside what the box covers. 0 where they may
-/// touch, and where more than a few cells lie below the box and their tiles do not tell. Tile by tile, then cell by
-/// cell.
+/// Returns a lower bound (m) of the distance between the surface below a box and the side of the box that faces down.
+/// Where the surface is at most `beside` (m) along x and y beside what the box covers, the plane of that side counts.
+/// Returns 0 where they may touch, and where more than a few cells lie below the box and their tiles do not decide it.
+/// Checks tile by tile, then cell by cell.
 [[gnu::noinline]] inline double clearance_below(const TerrainGrid& grid, const BoxOverTerrain& box, double beside) {
   constexpr int max_cells = 64, max_tiles = 25;
   int down = 0;
@@ -27,14 +27,14 @@ struct BoxOverTerrain {
   }
   const double* const axis = box.axes[down];
   if (!(__builtin_fabs(axis[2]) > 0.5)) return 0;
-  // the side: z = height + slope_x x + slope_y y, seen from the centre
+  // the side: z = height + slope_x x + slope_y y, relative to the centre
   const double slope_x = -axis[0] / axis[2], slope_y = -axis[1] / axis[2],
                height = box.centre[2] - box.half[down] / __builtin_fabs(axis[2]);
   const auto clamped = [](double at, int nodes) { return at > 0 ? (at < nodes - 2 ? int(at) : nodes - 2) : 0; };
   const double upright = __builtin_fabs(axis[2]);
   const double low_x = box.centre[0] - reach[0], high_x = box.centre[0] + reach[0];
   const double low_y = box.centre[1] - reach[1], high_y = box.centre[1] + reach[1];
-  /// As far as tiles of one size tell.
+  /// Returns the gap that tiles of one size show; 0: none.
   const auto clearance_of_tiles = [&](const TerrainLevel& level) {
     const int first_x = clamped((low_x + grid.half_x) * level.per_x, level.columns + 1),
               last_x = clamped((high_x + grid.half_x) * level.per_x, level.columns + 1),
@@ -45,7 +45,7 @@ struct BoxOverTerrain {
     for (int row = first_y; row <= last_y; ++row)
       for (int column = first_x; column <= last_x; ++column) {
         const TerrainTile& tile = level.tiles[long(row) * level.columns + column];
-        // the plane's height over the side at the middle of the tile, and where it is highest
+        // height of the side at the middle of the tile, and the most that the plane of the tile rises towards it
         const double x = (column + 0.5) * level.length_x - grid.half_x, y = (row + 0.5) * level.length_y - grid.half_y;
         const double side = height + slope_x * (x - box.centre[0]) + slope_y * (y - box.centre[1]);
         const double rise = 0.5 * __builtin_fabs(double(tile.slope_x) - slope_x) * level.length_x +
@@ -75,7 +75,7 @@ struct BoxOverTerrain {
       const double x = column * grid.spacing_x - grid.half_x, y = row * grid.spacing_y - grid.half_y;
       const double left = low_x > x ? low_x - x : 0, right = high_x < x + grid.spacing_x ? high_x - x : grid.spacing_x;
       const double front = low_y > y ? low_y - y : 0, back = high_y < y + grid.spacing_y ? high_y - y : grid.spacing_y;
-      // both triangles, as height over the side at the corner and slopes relative to it
+      // both triangles, each as a height at a corner and slopes relative to the side
       const double side = height + slope_x * (x - box.centre[0]) + slope_y * (y - box.centre[1]);
       const double slopes[2][2] = {{(double(lower[1]) - double(lower[0])) * grid.scale * grid.per_spacing_x - slope_x,
                                     (double(upper[0]) - double(lower[0])) * grid.scale * grid.per_spacing_y - slope_y},

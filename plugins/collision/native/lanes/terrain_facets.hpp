@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The triangles of a heightmap below points, and where two of them meet.
+// Triangles of a heightmap below points, and the lines where two of them meet.
 #pragma once
 
 #include "float_rows.hpp"
@@ -20,7 +20,7 @@ MURO_INLINE void set_value(S& s, int i, double to) {
   s.set(i, to);
 }
 
-/// Where all conditions hold; where one does.
+/// Lanes in which all conditions hold (all_of), or at least one does (any_of).
 template <class M, class... Others>
 MURO_INLINE M all_of(M first, Others... others) {
   if constexpr (std::is_same_v<M, bool>)
@@ -36,15 +36,15 @@ MURO_INLINE M any_of(M first, Others... others) {
     return (first | ... | others);
 }
 
-/// A plane that is not upright, by its slopes. Upward across it is (-slope_x, -slope_y, 1).
+/// Slopes of a plane that is not upright. The upward vector across the plane is (-slope_x, -slope_y, 1).
 template <class S>
 struct Slopes {
   S x, y;
 
   MURO_INLINE V3<S> up() const { return {-x, -y, S(1)}; }
-  /// The square of the length of that.
+  /// Returns the square of the length of up().
   MURO_INLINE S up2() const { return S(1) + (x * x + y * y); }
-  /// That times a vector.
+  /// Returns the scalar product of up() and a vector.
   MURO_INLINE S along(const V3<S>& v) const { return v.z - (x * v.x + y * v.y); }
 };
 
@@ -52,32 +52,32 @@ struct Slopes {
 template <class S>
 struct Facet {
   S column, row;  ///< of its corner at the right angle
-  S side;         ///< 1: the rest of it is at +x +y of that corner, -1: at -x -y
+  S side;         ///< 1: the triangle lies at +x +y of that corner, -1: at -x -y
   V3<S> corner;   ///< m
   Slopes<S> slopes;
 
-  /// How high (m) the plane is over a point; negative below it.
+  /// Returns the height (m) of the plane above a point; negative if the plane is below the point.
   MURO_INLINE S rise_over(const V3<S>& p) const {
     return corner.z + (slopes.x * (p.x - corner.x) + slopes.y * (p.y - corner.y)) - p.z;
   }
-  /// Unit.
+  /// Returns the unit normal.
   MURO_INLINE V3<S> normal() const { return slopes.up() * (S(1) / sqrt(slopes.up2())); }
-  /// Whether a point is over or under the triangle, or beside it by `slack` of the length of its sides at most.
+  /// Whether a point is over or under the triangle, or beside it by at most `slack` of the length of its sides.
   MURO_INLINE MaskOf<S> covers(const TerrainGrid& grid, S x, S y, double slack) const {
     const S a = side * (x - corner.x) * S(grid.per_spacing_x), b = side * (y - corner.y) * S(grid.per_spacing_y);
     return all_of(min(a, b) >= S(-slack), a + b <= S(1 + slack));
   }
-  /// m: of the triangle.
+  /// Returns a point inside the triangle (m).
   MURO_INLINE V3<S> inner_point(const TerrainGrid& grid) const {
     const S x = side * S(grid.spacing_x / 3), y = side * S(grid.spacing_y / 3);
     return {corner.x + x, corner.y + y, corner.z + (slopes.x * x + slopes.y * y)};
   }
-  /// Of all triangles.
+  /// Returns a number that is unique among all triangles.
   MURO_INLINE S number(const TerrainGrid& grid) const { return side * (row * S(grid.columns) + column + S(1)); }
   MURO_INLINE MaskOf<S> is(const Facet& other) const {
     return all_of(column == other.column, row == other.row, side == other.side);
   }
-  /// Whether both share an edge. Then one is at -x -y of it.
+  /// Whether both share an edge. Then one of them is at -x -y of the edge.
   MURO_INLINE MaskOf<S> is_beside(const Facet& other) const {
     const S x = (other.column - column) * side, y = (other.row - row) * side;
     return all_of(side + other.side == S(0), x >= S(0), y >= S(0), x <= S(1), y <= S(1), x + y >= S(1));
@@ -93,7 +93,7 @@ MURO_INLINE Facet<S> select(MaskOf<S> m, const Facet<S>& a, const Facet<S>& b) {
           {select(m, a.slopes.x, b.slopes.x), select(m, a.slopes.y, b.slopes.y)}};
 }
 
-/// Rounded down, of numbers from 0 to 2^31.
+/// Returns `x` rounded down; `x` is from 0 to 2^31.
 template <class S>
 MURO_INLINE S floor_of(S x) {
   constexpr double shift = 0x1p52;
@@ -101,19 +101,19 @@ MURO_INLINE S floor_of(S x) {
   return rounded - select(rounded > x, S(1), S(0));
 }
 
-/// Of a cell the triangle at +x +y (`upper`) or that at -x -y.
+/// Returns the triangle of a cell at +x +y (`upper`) or the one at -x -y.
 template <class S>
 MURO_INLINE Facet<S> facet_of(const TerrainGrid& grid, S cell_column, S cell_row, MaskOf<S> upper) {
   Facet<S> f;
   f.side = select(upper, S(-1), S(1));
   const S is_upper = select(upper, S(1), S(0));
   f.column = cell_column + is_upper, f.row = cell_row + is_upper;
-  S nodes[4];  // of the cell, along x in both rows
+  S nodes[4];  // nodes of the cell, along x in both rows
   const float *const lower = grid.values, *const upper_row = grid.values + grid.columns;
   load_fours(
       cell_row * S(grid.columns) + cell_column,
       [=](std::int64_t node) { return two_and_two(lower + node, upper_row + node); }, nodes);
-  // the corner and those along x and y from it
+  // the corner, and its neighbours along x and y
   const S corner = select(upper, nodes[3], nodes[0]), beside = select(upper, nodes[2], nodes[1]),
           above = select(upper, nodes[1], nodes[2]);
   f.corner = {f.column * S(grid.spacing_x) - S(grid.half_x), f.row * S(grid.spacing_y) - S(grid.half_y),
@@ -123,13 +123,13 @@ MURO_INLINE Facet<S> facet_of(const TerrainGrid& grid, S cell_column, S cell_row
   return f;
 }
 
-/// A number from 0 to just below `end`; 0 of what is not a number.
+/// Returns `x` limited to 0 and a number just below `end`; 0 if `x` is not a number.
 template <class S>
 MURO_INLINE S clamped(S x, int end) {
   return min(max(x, S(0)), S(end * (1 - 0x1p-53)));
 }
 
-/// The triangle over or under a point; where that is beyond the rim, one near it.
+/// Returns the triangle over or under a point; if the point is beyond the rim, a triangle near it.
 template <class S>
 MURO_INLINE Facet<S> facet_at(const TerrainGrid& grid, S x, S y) {
   const S u = clamped<S>((x + S(grid.half_x)) * S(grid.per_spacing_x), grid.columns - 1),
@@ -138,15 +138,15 @@ MURO_INLINE Facet<S> facet_at(const TerrainGrid& grid, S x, S y) {
   return facet_of<S>(grid, column, row, (u - column) + (v - row) > S(1));
 }
 
-/// The slopes near a shape, as far as a tile tells.
+/// Slopes near a shape, taken from a tile.
 template <class S>
 struct NearSlopes {
-  Slopes<S> slopes;  ///< of the tile's plane
-  S rise;            ///< m: how high that is over the centre
+  Slopes<S> slopes;  ///< of the plane of the tile
+  S rise;            ///< m, of that plane over the centre
   S spread;
 };
 
-/// `centre`: of a shape that reaches no farther than the level.
+/// `centre` (m): of a shape that reaches no farther than the level.
 template <class S>
 MURO_INLINE NearSlopes<S> slopes_near(const TerrainGrid& grid, const TerrainLevel& level, const V3<S>& centre) {
   const S u = clamped<S>((centre.x + S(grid.half_x)) * S(level.per_x), level.columns),
@@ -154,7 +154,7 @@ MURO_INLINE NearSlopes<S> slopes_near(const TerrainGrid& grid, const TerrainLeve
   const S column = floor_of(u), row = floor_of(v);
   static_assert(sizeof(TerrainTile) == 4 * sizeof(float));
   const float* const numbers = &level.tiles->height;
-  S tile[4];  // in its order
+  S tile[4];  // members of a TerrainTile, in their order
   load_fours(
       row * S(4 * level.columns) + S(4) * column, [&](std::int64_t at) { return four_at(numbers + at); }, tile);
   const S x = centre.x + S(grid.half_x) - (column + S(0.5)) * S(level.length_x),

@@ -21,7 +21,7 @@ MURO_INLINE V3<S> to_world(const TerrainGrid& grid, const V3<S>& v) {
   return v.x * lane::splat<S>(a) + v.y * lane::splat<S>(a + 3) + v.z * lane::splat<S>(a + 6);
 }
 
-/// m: how far a shape reaches from its centre.
+/// Returns the reach (m) of a shape from its centre.
 MURO_INLINE double radius_of_all(KernelShapeKind kind, const double* half) {
   switch (kind) {
     case KernelShapeKind::sphere:
@@ -32,7 +32,8 @@ MURO_INLINE double radius_of_all(KernelShapeKind kind, const double* half) {
       return __builtin_sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
   }
 }
-/// m: how far beyond the rim along x or y all of what is so near to a centre is; negative where not all is.
+/// Returns how far (m) along x or y a ball with this centre and radius lies beyond the rim; negative if it does not lie
+/// completely beyond.
 template <class S>
 MURO_INLINE S beyond_rim(const TerrainGrid& grid, const V3<S>& centre, double radius) {
   return max(abs(centre.x) - S(grid.half_x + radius), abs(centre.y) - S(grid.half_y + radius));

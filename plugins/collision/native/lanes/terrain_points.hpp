@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The points of balls and wheels on gentle slopes of a heightmap.
+// Points of balls and wheels on gentle slopes of a heightmap.
 #pragma once
 
 #include "shape_clearance.hpp"
@@ -9,23 +9,23 @@
 namespace muro::native::lanes {
 inline namespace MURO_ISA {
 
-/// Where slopes differ by no more than this, normals differ by less than 18 degrees: then all that touches a round
-/// shape at one place is one contact, the deepest.
+/// Largest difference of slopes that counts as gentle. Normals then differ by less than 18 degrees, so that all that
+/// touches a round shape at one place makes one contact, the deepest.
 inline constexpr double gentle_spread = 0.16;
-/// Where they differ by no more than this, all edges count as flat.
+/// Largest difference of slopes at which all edges count as flat.
 inline constexpr double even_spread = 5e-5;
 
-/// Gives `sink(mask, point, normal, depth, number)` the points in which a shape and the ground below a heightmap
-/// overlap, each half way between the surfaces, in the world, where they can be told in a few operations: those of
-/// spheres and of lying cylinders on gentle slopes, over triangles and over the convex edge of two; and none for shapes
-/// that are above the ground. Of a cylinder these are the lowest point of either rim, and where edges between them rise
-/// against its side. `Shape` is ShapeInWorld<S>, or what has its functions.
+/// Calls `sink(mask, point, normal, depth, number)` for the points in which a shape and the ground below a heightmap
+/// overlap, in the world, each half way between the surfaces. It finds what needs few operations: points of spheres and
+/// of lying cylinders on gentle slopes, over triangles and over the convex edge of two. Of a cylinder these are the
+/// lowest point of each rim, and points where edges between them rise against its side. Shapes above the ground have no
+/// points. `Shape` is ShapeInWorld<S>, or has its functions.
 template <class S, class Shape>
 class TerrainPoints {
  public:
   TerrainPoints(const Shape& at, const TerrainGrid& grid) : at_(at), grid_(grid), half_(at.half()) {}
 
-  /// Says whose points it cannot tell; of those nothing is given, or not all.
+  /// Returns the lanes whose points it cannot find. For these it gives no points, or not all.
   template <class Sink>
   MURO_INLINE MaskOf<S> give(Sink& sink) const {
     const bool is_ball = at_.kind() == KernelShapeKind::sphere;
@@ -42,9 +42,9 @@ class TerrainPoints {
   }
 
  private:
-  /// Of the side of a wheel with an edge; known where it is between the rims.
+  /// Contact of the side of a wheel with an edge. It is known if it is between the rims.
   struct SideTouch : Touch<S> {
-    MaskOf<S> is_off;  ///< it would be known if the edge were longer: the wheel is over an end of it
+    MaskOf<S> is_off;  ///< it would be known if the edge were longer: the wheel is over an end of the edge
   };
 
   template <class Sink>
@@ -55,7 +55,7 @@ class TerrainPoints {
          number);
   }
 
-  /// Returns whose points are not known.
+  /// Gives the point of a ball. Returns the lanes whose points are not known.
   template <class IsNear, class Sink>
   MURO_INLINE MaskOf<S> give_ball(const IsNear& is_near, const V3<S>& centre, const NearSlopes<S>& near,
                                   Sink& sink) const {
@@ -71,7 +71,7 @@ class TerrainPoints {
     return all_of(may_touch, !known);
   }
 
-  /// The same of a cylinder.
+  /// Gives the points of a cylinder. Returns the lanes whose points are not known.
   template <class IsNear, class Sink>
   MURO_INLINE MaskOf<S> give_wheel(const IsNear& is_near, const V3<S>& centre, const NearSlopes<S>& near,
                                    Sink& sink) const {
@@ -79,10 +79,10 @@ class TerrainPoints {
     const S radius(half_[0]), along = near.slopes.along(u), up2 = near.slopes.up2(), along2 = along * along;
     const S steep = sqrt(max(up2 - along2, S(0)));
     const auto may_touch = is_near(S(half_[2]) * abs(along) + radius * steep);
-    // it lies
+    // the cylinder lies on its side
     const auto is_gentle = all_of(may_touch, along2 < S(0.25) * up2, near.spread <= S(gentle_spread));
     if (!any(is_gentle)) return may_touch;
-    // below the centres of the rims
+    // from the centres of the rims to their lowest points
     const S per = radius / steep;
     const S down_x = per * (near.slopes.x + along * u.x), down_y = per * (near.slopes.y + along * u.y);
     const V3<S> end_a = centre + end, end_b = centre - end;
@@ -97,7 +97,7 @@ class TerrainPoints {
     return any_of(lost, give_sides(on_way, a, b, centre, u, radius, sink));
   }
 
-  /// Where edges between both rims touch the side. Returns whose are not known.
+  /// Gives the points where edges between both rims touch the side. Returns the lanes whose points are not known.
   template <class Sink>
   MURO_INLINE MaskOf<S> give_sides(MaskOf<S> on_way, const Touch<S>& a, const Touch<S>& b, const V3<S>& centre,
                                    const V3<S>& u, S radius, Sink& sink) const {
@@ -111,7 +111,8 @@ class TerrainPoints {
     return any(farther) ? any_of(lost, give_edges(farther, a, b, centre, u, radius, sink)) : lost;
   }
 
-  /// The edges that the line between the points of both rims crosses. Returns whose are not known.
+  /// Gives the points on edges that the line between the points of both rims crosses. Returns the lanes whose points
+  /// are not known.
   template <class Sink>
   MURO_INLINE MaskOf<S> give_edges(MaskOf<S> on_way, const Touch<S>& a, const Touch<S>& b, const V3<S>& centre,
                                    const V3<S>& u, S radius, Sink& sink) const {
@@ -131,12 +132,12 @@ class TerrainPoints {
     return any_of(lost, on_way);
   }
 
-  /// Whether the edge of two triangles rises.
+  /// Whether the edge between two triangles is convex.
   MURO_INLINE MaskOf<S> is_convex(const Facet<S>& f, const Facet<S>& g) const {
     return f.rise_over(g.inner_point(grid_)) > S(0);
   }
 
-  /// Of the side with the edge of two triangles.
+  /// Returns the contact of the side with the edge of two triangles.
   MURO_INLINE SideTouch side_touch(const Facet<S>& f, const Facet<S>& g, const V3<S>& centre, const V3<S>& u,
                                    S radius) const {
     const V3<S> normal_f = f.normal(), normal_g = g.normal();
@@ -145,7 +146,7 @@ class TerrainPoints {
     V3<S> n = cross(u, edge);
     const S size2 = dot(n, n);
     n = n * (select(n.z < S(0), S(-1), S(1)) / sqrt(max(size2, S(1e-300))));
-    // a point of the line of both planes, by its parts along their normals
+    // from the line in which both planes meet to the centre, by its parts along their normals
     const S high_f = -f.rise_over(centre) * normal_f.z, high_g = -g.rise_over(centre) * normal_g.z,
             sine2 = S(1) - cosine * cosine;
     const V3<S> from_line =
@@ -167,7 +168,7 @@ class TerrainPoints {
     return touch;
   }
 
-  static constexpr int max_edges = 6;  ///< of the eight points of a slot two are those of the rims
+  static constexpr int max_edges = 6;  ///< a slot has eight points, two are those of the rims
   const Shape& at_;
   const TerrainGrid& grid_;
   const double* const half_;

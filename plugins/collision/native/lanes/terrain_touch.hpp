@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where balls and the rims of wheels touch a heightmap.
+// Points where balls and the rims of wheels touch a heightmap.
 #pragma once
 
 #include "terrain_facets.hpp"
@@ -7,32 +7,32 @@
 namespace muro::native::lanes {
 inline namespace MURO_ISA {
 
-/// A ball, or the rim of a wheel with an axis; in the frame of a heightmap.
+/// A ball, or the rim of a wheel with an axis, in the frame of a heightmap.
 template <class S, bool is_ball>
 struct Round {
   V3<S> centre;  ///< m
-  V3<S> axis;    ///< unit; of a rim
+  V3<S> axis;    ///< unit; only of a rim
   S radius;      ///< m
 };
 
-/// The lowest point of a ball or rim.
+/// Contact at the lowest point of a ball or rim.
 template <class S>
 struct Touch {
-  V3<S> point, normal;  ///< half way; in the frame of the heightmap
+  V3<S> point, normal;  ///< half way between the surfaces; in the frame of the heightmap
   S depth;
-  Facet<S> facet;  ///< that it touches
-  S number;        ///< of that triangle
-  S other;         ///< the same, or that of the other triangle at the edge that it touches
+  Facet<S> facet;  ///< the triangle that it touches
+  S number;        ///< number of that triangle
+  S other;         ///< the same, or the number of the other triangle at the edge that it touches
   MaskOf<S> is_known;
 };
 
-/// As to the plane of a triangle.
+/// Lowest point of a ball or rim relative to the plane of a triangle.
 template <class S>
 struct LowestPoint {
   V3<S> point, normal;
   S depth;
   S rise;            ///< m, of the plane over the centre
-  S foot_x, foot_y;  ///< m, of the point of the plane that is nearest to the centre
+  S foot_x, foot_y;  ///< m, point of the plane that is nearest to the centre
 
   template <bool is_ball>
   MURO_INLINE LowestPoint(const Facet<S>& f, const Round<S, is_ball>& round) {
@@ -60,12 +60,12 @@ struct LowestPoint {
   }
 };
 
-/// Where two planes meet, seen from the centre, in space or in the plane of a rim.
+/// Line where two planes meet, relative to the centre, in space or in the plane of a rim.
 template <class S>
 struct Fold {
   V3<S> way;           ///< m, from the nearest point of the line to the centre
-  S length2;           ///< m^2, of that
-  MaskOf<S> is_ahead;  ///< it leads between both normals, and the planes are not one
+  S length2;           ///< m^2, of `way`
+  MaskOf<S> is_ahead;  ///< `way` points between both normals, and the planes differ
   V3<S> edge;          ///< along the edge
 
   template <bool is_ball>
@@ -83,11 +83,11 @@ struct Fold {
   }
 };
 
-/// Of the length of the sides of a triangle.
+/// Slack at the sides of a triangle, as a part of their length.
 inline constexpr double touch_slack = 1e-9;
 
-/// Looks at the triangle over which the nearest point of the first one's plane is, and at the edge between. Where
-/// `touch` is not known yet. `foot_x`, `foot_y`: of that point.
+/// Checks the triangle at the point of the first triangle's plane that is nearest to the centre, and the edge between
+/// both, in lanes where `touch` is not known yet. `foot_x`, `foot_y` (m): that point.
 template <class S, bool is_ball>
 [[gnu::noinline]] void find_beside(const TerrainGrid& grid, const Round<S, is_ball>& round, S foot_x, S foot_y,
                                    Touch<S>& touch) {
@@ -120,7 +120,7 @@ template <class S, bool is_ball>
   touch.facet = select(on_next, next, touch.facet);
 }
 
-/// `x`, `y`: m, over a triangle that it may touch.
+/// Finds the contact of a ball or rim. `x`, `y` (m): a point over a triangle that it may touch.
 template <class S, bool is_ball>
 MURO_INLINE Touch<S> find_touch(const TerrainGrid& grid, const Round<S, is_ball>& round, S x, S y) {
   Touch<S> touch;

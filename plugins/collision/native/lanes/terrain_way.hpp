@@ -6,14 +6,15 @@
 namespace muro::native::lanes {
 inline namespace MURO_ISA {
 
-/// The triangles of a heightmap under a straight line, one after the other. Three families of parallel lines divide
-/// them: those of columns, of rows, and those across the cells, on which column and row have a whole sum.
+/// Steps through the triangles of a heightmap under a straight line. Three families of parallel lines divide the
+/// triangles: the columns, the rows, and the lines across the cells, on which the sum of column and row is a whole
+/// number.
 template <class S>
 class FacetWay {
  public:
   Facet<S> before, now;  ///< they share an edge that the line crosses
 
-  /// From a point over the one facet to a point over the other; points may be beside them a little.
+  /// Starts at a point over `from` and ends at a point over `to`. The points may be slightly beside these triangles.
   MURO_INLINE FacetWay(const TerrainGrid& grid, const Facet<S>& from, const V3<S>& start, const Facet<S>& to,
                        const V3<S>& end)
       : now(from) {
@@ -26,7 +27,7 @@ class FacetWay {
     across_ = family(first.across, last.across, u + v, du + dv);
   }
 
-  /// Goes on to the next facet. Says where there is one.
+  /// Goes on to the next triangle. Returns the lanes in which there is one.
   MURO_INLINE MaskOf<S> step(const TerrainGrid& grid) {
     const auto by_column = all_of(column_.at < row_.at, column_.at < across_.at);
     const auto by_row = all_of(!by_column, row_.at < across_.at);
@@ -35,7 +36,7 @@ class FacetWay {
     const S upper = across_.number - column_.number - row_.number;
     const auto is_facet = all_of(any_of(by_column, by_row, by_across), upper >= S(0), upper <= S(1));
     before = now;
-    // where there is none any will do
+    // where there is none, this takes any triangle
     now = facet_of<S>(grid, select(is_facet, column_.number, S(0)), select(is_facet, row_.number, S(0)),
                       all_of(is_facet, upper > S(0)));
     return is_facet;
@@ -43,17 +44,17 @@ class FacetWay {
 
  private:
   static constexpr double far = 1e300;
-  /// Between which lines of each family a facet is.
+  /// Numbers of the lines of each family between which a triangle lies.
   struct Number {
     S column, row, across;
   };
   /// The lines of one family.
   struct Family {
-    S number;     ///< that before the present facet
-    S at;         ///< of the next one that is crossed, as a part of the whole way; `far`: there is none
+    S number;     ///< number of the line before the present triangle
+    S at;         ///< where the next line is crossed, as a part of the whole way; `far`: nowhere
     S last;       ///< `number` at the end
     S direction;  ///< 1, or -1
-    S per;        ///< parts of the way from line to line
+    S per;        ///< part of the way between two lines
 
     MURO_INLINE void cross(MaskOf<S> which) {
       number += select(which, direction, S(0));

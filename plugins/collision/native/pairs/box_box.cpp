@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Separating axes of two boxes (Gottschalk, Lin, Manocha: OBBTree, SIGGRAPH 1996): six faces, nine pairs of
-// edges; then the two faces that look at each other are clipped.
+// Separating axes of two boxes (Gottschalk, Lin, Manocha: OBBTree, SIGGRAPH 1996): six faces, nine pairs of edges. Then
+// the two faces that are opposite each other are clipped.
 #include "pairs/collide.hpp"
 #include "plugins/common/contact_geometry/feature.hpp"
 
@@ -16,7 +16,7 @@ void box_box(const TransformedShape& a, const TransformedShape& b, Manifold& out
   const Vec3 over_b = b.half + size.transpose() * a.half - db.cwiseAbs();
   if (over_b.minCoeff() <= 0) return;
 
-  // Of equal depths the face comes before the edges, and the first shape's before the second's.
+  // If depths are equal, a face is preferred to edges, and a face of the first shape to one of the second.
   const double bias = 1 - 1e-9;
   int face;
   double depth = over_a.minCoeff(&face);
@@ -31,7 +31,7 @@ void box_box(const TransformedShape& a, const TransformedShape& b, Manifold& out
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
     for (int j = 0; j < 3; ++j) {
       const double sine2 = 1 - r(i, j) * r(i, j);
-      if (sine2 < 1e-10) continue;  // parallel: a face separates no less
+      if (sine2 < 1e-10) continue;  // parallel: a face separates at least as well
       const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
       const double reach = a.half[i1] * size(i2, j) + a.half[i2] * size(i1, j) +  //
                            b.half[j1] * size(i, j2) + b.half[j2] * size(i, j1);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int pair_of(ShapeKind a, ShapeKind b) { return int(a) * 8 + int(b); }
 
-/// Kinds in the order of ShapeKind.
+/// Collides two shapes whose kinds are in the order of ShapeKind.
 void ordered(const TransformedShape& a, const TransformedShape& b, Manifold& out) {
   using enum ShapeKind;
   switch (pair_of(a.kind, b.kind)) {

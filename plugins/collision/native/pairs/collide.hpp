@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Where two shapes overlap: one function per pair of kinds, and the switch between them.
+// Contact points of two shapes that overlap: one function for each pair of kinds, and the switch between them.
 //
-// Every function takes the shapes in the order of its name and *adds* to an empty manifold. The normal
-// points from second to first. The depth of the deepest point is the penetration depth: the length
-// of the shortest translation of the first shape that separates the two (except against planes and in the inner
-// points of a manifold, where it is the overlap at that point). No state, no allocation; equal input gives
-// equal bits.
+// Every function takes the shapes in the order of its name and *adds* to an empty manifold. The normal points from
+// second to first. The depth of the deepest point is the penetration depth: the length of the shortest translation of
+// the first shape that separates the two. Against planes, and in the inner points of a manifold, it is the overlap at
+// that point. The functions have no state and allocate nothing. Equal input gives equal bits.
 #pragma once
 
 #include "pairs/conversions.hpp"
@@ -13,10 +12,10 @@
 
 namespace muro::native {
 
-/// Any two shapes but meshes; two planes never touch.
+/// Collides any two shapes except meshes; two planes never touch.
 void collide_shapes(const TransformedShape& first, const TransformedShape& second, Manifold& out);
 
-// plane.cpp: any shape but a plane or mesh.
+// plane.cpp: any shape except a plane or mesh.
 void solid_plane(const TransformedShape& solid, const TransformedShape& plane, Manifold& out);
 
 // round.cpp: pairs whose nearest points have a closed form.

@@ -12,7 +12,7 @@ static_assert(int(KernelShapeKind::box) == int(ShapeKind::box) &&
               int(KernelShapeKind::mesh) == int(ShapeKind::mesh) &&
               int(KernelShapeKind::heightmap) == int(ShapeKind::heightmap));
 
-/// The axis of the body that `v` is, apart from rounding, as KernelShape::along tells it.
+/// Returns the axis of the body that `v` is, apart from rounding, numbered as in KernelShape::along.
 int axis_along(const Vec3& v) {
   for (int k = 0; k < 3; ++k)
     if ((v - std::copysign(1.0, v[k]) * Vec3::Unit(k)).cwiseAbs().maxCoeff() < 1e-12) return v[k] > 0 ? k + 1 : -k - 1;

@@ -9,11 +9,11 @@ namespace muro::native {
 using namespace contact_geometry;
 using contact_geometry::transformed;
 
-/// The shape as plain numbers, on body number `body` of its robot.
+/// Returns the shape as plain numbers, on body number `body` of its robot.
 KernelShape kernel_shape_of(const Shape& shape, std::uint32_t body = 0);
-/// The same for a mesh or heightmap: `box` is around it, in its own frame.
+/// Returns a mesh or heightmap as plain numbers. `box`: the box around it, in its own frame.
 KernelShape kernel_shape_of(const Shape& shape, const Aabb& box, std::uint32_t body);
-/// The shape whose body is at `body`, with the bits that kernels compute.
+/// Returns the shape in the world, with the bits that kernels compute. `body`: pose of its body.
 TransformedShape transformed(const KernelShape& shape, const Pose& body);
 GroundPlane ground_plane_of(const TransformedShape& plane);
 

@@ -6,7 +6,7 @@
 namespace muro::native {
 namespace {
 
-/// At most four points of the difference, of which `nearest` keeps those that carry the nearest point.
+/// Up to four points of the difference. `nearest` keeps those that carry the nearest point.
 struct Simplex {
   Vec3 p[4];
   int count = 0;
@@ -44,14 +44,14 @@ struct Simplex {
     if (vb <= 0 && d2 >= 0 && d6 <= 0) return keep(a, c, d2 / (d2 - d6));
     const double va = d3 * d6 - d5 * d4;
     if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return keep(b, c, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
-    // Inside: the foot of the perpendicular, more exact than barycentric sums.
+    // Inside: the foot of the perpendicular is more exact than barycentric sums.
     const Vec3 n = ab.cross(ac);
     const double n2 = n.squaredNorm();
     if (!(n2 > 0)) return keep(a);
     return n * (n.dot(a) / n2);
   }
 
-  /// False when the origin is inside the tetrahedron.
+  /// Returns false if the origin is inside the tetrahedron.
   bool nearest_on_tetrahedron(Vec3& v) {
     static constexpr int faces[4][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 3, 2, 0}};
     double best = std::numeric_limits<double>::infinity();
@@ -114,7 +114,7 @@ Separation separation(const Difference& h) {
     simplex.p[simplex.count++] = w;
     Vec3 next = v;
     if (!simplex.nearest(next)) return {Relation::inside, Vec3::UnitZ()};
-    if (next.squaredNorm() >= v2) break;  // rounding: no nearer any more
+    if (next.squaredNorm() >= v2) break;  // rounding: it gets no nearer
     v = next;
   }
   return {Relation::near, -v.normalized()};

@@ -14,8 +14,8 @@ using Vec2 = Eigen::Vector2d;
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 Vec2 left_of(const Vec2& a) { return {-a.y(), a.x()}; }
 
-/// A point of the shape that lies farthest along the unit vector n, in the middle where there are many. Box or
-/// cylinder.
+/// Returns the point of a box or cylinder that lies farthest along the unit vector n; if there are many, one in their
+/// middle.
 Vec3 support_point(const TransformedShape& shape, const Vec3& n) {
   constexpr double level = 1e-9;
   Vec3 p = shape.centre;
@@ -28,7 +28,7 @@ Vec3 support_point(const TransformedShape& shape, const Vec3& n) {
   return p;
 }
 
-/// The radius (m) of the largest ball about `point` that lies in the shape; negative outside. Box or cylinder.
+/// Returns the radius (m) of the largest ball about `point` that lies in a box or cylinder; negative outside.
 double inscribed_radius(const TransformedShape& shape, const Vec3& point) {
   const Vec3 p = shape.axes.transpose() * (point - shape.centre);
   if (shape.kind == ShapeKind::box) return (shape.half - p.cwiseAbs()).minCoeff();
@@ -38,7 +38,7 @@ double inscribed_radius(const TransformedShape& shape, const Vec3& point) {
 struct Strip;
 struct OtherSegments;
 
-/// The minimum of the depth function that is known so far, and the search for a lower one.
+/// The least value of the depth function found so far, and the search for a lower one.
 struct Search {
   const DepthFunction& h;
   double min_depth = std::numeric_limits<double>::infinity();
@@ -50,10 +50,10 @@ struct Search {
     normal = n;
   }
   void consider(const Vec3& n) { consider(n, h(n)); }
-  /// The better of n and -n.
+  /// Considers the better of n and -n.
   void consider_axis(const Vec3& n) { consider(n.dot(h.offset) > 0 ? Vec3(-n) : n); }
 
-  /// False: a face separates the shapes.
+  /// Returns false if a face separates the shapes.
   bool flat_faces() {
     for (int j = 0; j < h.discs; ++j) consider_axis(h.disc[j]);
     if (min_depth + h.ball <= 0) return false;
@@ -67,8 +67,9 @@ struct Search {
     return true;
   }
 
-  /// Whether no depth is less: a ball of radius `min_depth` about a point of the one shape lies in the other, which
-  /// must move by that much in any direction. Not every minimum can be proven so, but most where a face is touched.
+  /// Whether no depth is less: a ball of radius `min_depth` about a point of one shape lies in the other, which must
+  /// then move by that much in any direction. Not every minimum can be proven in this way, but most can where a face is
+  /// touched.
   bool is_minimum() const {
     const double reach = min_depth * (1 - 1e-9);
     return h.ball == 0 && (inscribed_radius(h.first, support_point(h.second, normal)) >= reach ||
@@ -84,21 +85,21 @@ struct Search {
   void triangle(const RimPatch& patch, const Vec3& a, const Vec3& b, const Vec3& c);
 };
 
-/// The segments but one, seen along that one: their half vectors across it, and their extents along it.
+/// The segments except one, seen along that one: their half vectors across it, and their extents along it.
 struct OtherSegments {
   Vec2 across[3];
   double along[3];
   int count = 0;
 };
 
-/// h on the normals n = x a + y b at right angles to one segment, where no kink lies between p and q:
+/// The function h on the normals n = x a + y b at right angles to one segment, where no kink lies between p and q:
 /// d . (x, y) + radius sqrt(y^2 + flat x^2) + constant.
 struct Strip {
   Vec3 a, b;
   double radius, flat, constant;
 
-  /// Whether there may be a minimum not above `bound` in the quadrant of m. There the farthest point of the strip,
-  /// d + radius * (a point of an ellipse) + constant * n, is n times the minimum.
+  /// Whether there may be a minimum not above `bound` in the quadrant of m. At a minimum, the farthest point of the
+  /// strip, d + radius * (a point of an ellipse) + constant * n, is n times the minimum.
   bool may_hold_minimum(const Vec2& d, const Vec2& m, double bound) const {
     const double x = m.x() < 0 ? d.x() : -d.x(), y = -d.y(), wide = radius * std::sqrt(flat);
     if (std::min(x, y) < -bound || x > wide + constant + bound || y > radius + constant + bound) return false;
@@ -129,7 +130,8 @@ struct Strip {
     }
   }
 
-  /// The slope is not positive at p, not negative at q: Newton's method, halving where it leaves the bracket.
+  /// Finds the minimum between p and q by Newton's method, and by halving where that leaves the bracket. The slope is
+  /// not positive at p and not negative at q.
   Vec2 minimum(const Vec2& d, Vec2 p, Vec2 q) const {
     Vec2 x = (p + q).normalized();
     for (int round = 0; round < 40; ++round) {
@@ -179,8 +181,8 @@ void Search::normals_across(int segment) {
   search_strip(strip, others, offset, u.dot(h.offset), reach);
 }
 
-/// The upper half circle between kinks (normals of an edge) and the axes of the ellipse, one interval after the other;
-/// the lower half is its mirror image with -offset. `along`: of the offset, along the segment.
+/// Searches the upper half circle, one interval after the other, between kinks (normals of an edge) and the axes of the
+/// ellipse. The lower half is its mirror image with -offset. `along`: part of the offset along the segment.
 void Search::search_strip(const Strip& strip, const OtherSegments& others, const Vec2& offset, double along,
                           double reach) {
   Vec2 bounds[6] = {{1, 0}, {0, 1}, {-1, 0}};  // of the intervals, in order of their angle
@@ -213,21 +215,21 @@ void Search::search_strip(const Strip& strip, const OtherSegments& others, const
   }
 }
 
-/// A circle, or nothing, swept over a polygon: the least depth lies straight across from a corner.
+/// Handles a polygon swept by a circle, or by nothing: the least depth lies on the line from a corner to the origin.
 void Search::around_corners(const Vec3& a, const Vec3& b, const Vec2& offset, const Vec2* edges, int count) {
   const double scale = h.offset.cwiseAbs().maxCoeff() + h.half[0];
   for (int signs = 0; signs < 1 << count; ++signs) {
     Vec2 corner = offset;
     for (int k = 0; k < count; ++k) corner += (signs >> k & 1 ? 1.0 : -1.0) * edges[k];
     const double length = corner.norm();
-    // On the axis itself every direction is as good.
+    // All directions are equally good on the axis itself.
     consider(length > 1e-12 * scale ? Vec3((corner.x() * a + corner.y() * b) * (-1 / length)) : a);
   }
 }
 
-/// Newton's step on the unit sphere from n, in its tangent plane. With t = disc x n / |disc x n| a disc bends h
-/// by radius / |disc x n| along t; moving on the sphere takes h itself away. False: h has no minimum nearby,
-/// and the step is one along the negative gradient.
+/// Computes Newton's step on the unit sphere from n, in its tangent plane. With t = disc x n / |disc x n| a disc bends
+/// h by radius / |disc x n| along t; moving on the sphere subtracts h itself. Returns false if h has no minimum nearby;
+/// then the step is one along the negative gradient.
 bool Search::newton(const Vec3& n, Vec3& step) const {
   const Vec3 a = perpendicular(n), b = n.cross(a);
   Vec3 gradient = h.offset;
@@ -276,8 +278,8 @@ void Search::descend(Vec3 n) {
   consider(n, value);
 }
 
-/// Where both rims meet. The great circles at right angles to the axes, across which h has kinks, and the
-/// one through both axes cut the sphere into eight triangles.
+/// Searches where both rims meet. The great circles at right angles to the axes, across which h has kinks, and the one
+/// through both axes cut the sphere into eight triangles.
 void Search::rims() {
   const Vec3 side = h.disc[0].cross(h.disc[1]);
   const double sine = side.norm();
@@ -295,8 +297,9 @@ void Search::rims() {
     }
 }
 
-/// Branch and bound: with the point p of the difference that is outermost along the middle, h(n) >= p . n.
-/// At a disc's axis h has the tip of a cone, so triangles get smaller towards it before Newton's method is tried.
+/// Searches a triangle by branch and bound: with the point p of the difference that is outermost along the middle, h(n)
+/// >= p . n. At a disc's axis h has the tip of a cone, so triangles get smaller towards it before Newton's method is
+/// tried.
 void Search::triangle(const RimPatch& patch, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 m = (a + b + c).normalized();
   const Vec3 p = patch.support(m);

@@ -6,7 +6,7 @@
 namespace muro::native {
 namespace {
 
-/// Two balls of radii `ra`, `rb`; `otherwise` is the normal where the centres coincide.
+/// Collides two balls of radii `ra` and `rb`. `otherwise`: the normal if the centres coincide.
 void balls(const Vec3& a, double ra, const Vec3& b, double rb, const Vec3& otherwise, Manifold& out) {
   const Vec3 gap = a - b;
   const double distance2 = gap.squaredNorm(), reach = ra + rb;
@@ -16,14 +16,14 @@ void balls(const Vec3& a, double ra, const Vec3& b, double rb, const Vec3& other
   out.add(b + n * (0.5 * (distance + rb - ra)), n, reach - distance);
 }
 
-/// Where on the axis of a capsule (m from its centre) it is nearest to `p`.
+/// Returns the point on the axis of a capsule (m from its centre) that is nearest to `p`.
 double nearest_on(const TransformedShape& capsule, const Vec3& p) {
   return std::clamp(capsule.axis().dot(p - capsule.centre), -capsule.half.z(), capsule.half.z());
 }
 Vec3 on_axis(const TransformedShape& capsule, double s) { return capsule.centre + s * capsule.axis(); }
 
-/// A ball whose centre lies in a solid, `surface` below its nearest face, which looks along `outward`.
-/// `side`: 1 when the ball is the first shape, -1 when the solid is.
+/// Collides a ball whose centre lies in a solid, `surface` (m) below its nearest face with the normal `outward`.
+/// `side`: 1 if the ball is the first shape, -1 if the solid is.
 void ball_inside(const Vec3& centre, double radius, const Vec3& outward, double surface, double side, Manifold& out) {
   out.add(centre + outward * (0.5 * (surface - radius)), side * outward, surface + radius);
 }
@@ -66,7 +66,7 @@ void sphere_cylinder(const TransformedShape& sphere, const TransformedShape& cyl
   const double off = std::sqrt(off2), beside = off - big;
   const Vec3 up = along < 0 ? Vec3(-u) : Vec3(u);
   const Vec3 aside = off > 1e-9 * big ? Vec3(radial / off) : Vec3(cylinder.axes.col(0));
-  if (over <= 0 && beside <= 0) {  // centre inside: out by the nearer of side and end
+  if (over <= 0 && beside <= 0) {  // centre inside: the way out is by the side or the end, whichever is nearer
     const bool by_end = over >= beside;
     ball_inside(sphere.centre, r, by_end ? up : aside, by_end ? -over : -beside, 1, out);
     return;
@@ -78,8 +78,8 @@ void sphere_cylinder(const TransformedShape& sphere, const TransformedShape& cyl
   out.add(sphere.centre - n * (0.5 * (distance + r)), n, r - distance);
 }
 
-/// Nearest points of two segments: Ericson, Real-Time Collision Detection, 5.1.9, for segments about centres.
-/// Nearly parallel ones overlap in a stretch, whose two ends make the manifold.
+/// Finds the nearest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9, for segments about
+/// centres). Nearly parallel segments overlap in a stretch, and its two ends make the manifold.
 void capsule_capsule(const TransformedShape& a, const TransformedShape& b, Manifold& out) {
   const Vec3 u = a.axis(), v = b.axis(), d = b.centre - a.centre, cross = u.cross(v);
   const double la = a.half.z(), lb = b.half.z(), c = u.dot(v), du = d.dot(u), dv = d.dot(v);

@@ -5,8 +5,9 @@
 
 namespace muro::native {
 
-/// A distance (m) that two shapes are apart at least, of a mesh the box around it: the most that a normal of a face or
-/// the line through the centres separates them by. Not positive: none of those does. Neither is a plane.
+/// Returns a lower bound (m) of the distance of two shapes; a mesh counts as the box around it. It is the largest
+/// separation along a normal of a face or the line through the centres. Not positive: none of these separates them.
+/// Neither shape is a plane.
 double separation_bound(const TransformedShape& first, const TransformedShape& second);
 
 }  // namespace muro::native

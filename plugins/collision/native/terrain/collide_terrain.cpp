@@ -15,13 +15,13 @@ namespace muro::native {
 namespace {
 
 constexpr double same_direction = 0.99;  ///< cosine
-/// Sine of the angle to a triangle below which a cylinder stands upright on it: heights are numbers of 24 bits.
+/// Sine of the angle to a triangle below which a cylinder is upright on it; heights are numbers of 24 bits.
 constexpr double least_tilt = 2e-5;
 using Cell = Heightmap::Cell;
 
 Vec3 vector_of(const lane::V3<double>& v) { return {v.x, v.y, v.z}; }
 
-/// Points of one solid, in the frame of the heightmap.
+/// Finds the points of one solid, in the frame of the heightmap.
 class TerrainContacts {
  public:
   TerrainContacts(const Solid& solid, const Terrain& terrain, std::vector<ContactPoint>& points)
@@ -31,7 +31,7 @@ class TerrainContacts {
 
   void find() {
     Aabb box = bounds_of(solid_.shape);
-    // what is deep below a slope is nearest to a triangle beside it
+    // a point deep below a slope is nearest to a triangle beside it
     const double beside = 0.3 * solid_.shape.half.norm();
     box.low -= Vec3(beside, beside, 0), box.high += Vec3(beside, beside, 0);
     if (solid_.hull)
@@ -59,7 +59,7 @@ class TerrainContacts {
         for (const std::uint32_t row : {c.row, c.row + 1}) {
           if ((column > c.column && c.column + 2 < terrain_.map().columns) ||
               (row > c.row && c.row + 2 < terrain_.map().rows))
-            continue;  // another cell's
+            continue;  // the node belongs to another cell
           const std::size_t before = points_.size();
           add_peak_contact(solid_, terrain_, column, row, points_);
           if (points_.size() == before) continue;
@@ -71,10 +71,10 @@ class TerrainContacts {
   }
 
  private:
-  /// Of one feature of the solid there is one contact with triangles of nearly one normal: the deepest.
+  /// The contact of one feature of the solid with triangles of nearly one normal: the deepest one.
   struct Numbered {
     int number;
-    std::size_t at;  ///< in the points
+    std::size_t at;  ///< index in the points
   };
 
   void add_vertex(const Vec3& v) {
@@ -92,7 +92,7 @@ class TerrainContacts {
                                           (k & 4 ? 1 : -1) * s.half.z()));
   }
 
-  /// The lowest points of a round solid as for each triangle's plane, where they are over the triangle.
+  /// Adds the lowest points of a round solid relative to the plane of each triangle, where they are over the triangle.
   void add_round_points(const Aabb& box) {
     const double slack = 2e-4 * solid_.shape.half.norm();
     numbered_count_ = 0;
@@ -107,7 +107,7 @@ class TerrainContacts {
       }
     });
   }
-  /// Of a round solid below a plane.
+  /// Calls `sink(point, number)` for the points of a round solid below a plane.
   template <class Sink>
   void each_plane_point(const Vec3& origin, const Vec3& normal, Sink sink) const {
     GroundPlane plane;
@@ -141,14 +141,14 @@ class TerrainContacts {
     numbered_[numbered_count_++] = {number, points_.size()};
     points_.push_back(p);
   }
-  /// Of a ball: points from `before` on are taken away again where a deeper one has nearly the same normal.
+  /// Removes the points of a ball from `before` on. Adds the last one again unless a deeper one has nearly its normal.
   void add_only_deepest(std::size_t before) {
     const ContactPoint p = points_.back();
     points_.resize(before);
     add_numbered(p, 0);
   }
 
-  /// A solid in the ground goes up as from the plane of the triangle above its centre.
+  /// Pushes a solid that is in the ground up, as from the plane of the triangle above its centre.
   void add_deep_points() {
     const Vec3& centre = solid_.shape.centre;
     const auto ground = terrain_.map().ground_at(centre.x(), centre.y());
@@ -165,7 +165,7 @@ class TerrainContacts {
            m.node(c.column, c.row + 1).z() < low && m.node(c.column + 1, c.row + 1).z() < low;
   }
 
-  /// To be called where points have been added that `numbered_` does not know.
+  /// Must be called after points have been added that `numbered_` does not know.
   void limit() {
     if (points_.size() - first_ >= max_points) reduce();
   }
@@ -175,7 +175,7 @@ class TerrainContacts {
     keep_few();
   }
 
-  /// Keeps the deepest of points at one place.
+  /// Keeps only the deepest of the points at one place.
   void remove_duplicates() {
     const double distance = 1e-4 * solid_.shape.half.norm();
     std::size_t count = first_;
@@ -192,7 +192,7 @@ class TerrainContacts {
     points_.resize(count);
   }
 
-  /// No more than a shape has on a plane: the deepest, then always the one that is farthest from those kept.
+  /// Keeps no more points than a shape has on a plane: the deepest, then repeatedly the one farthest from those kept.
   void keep_few() {
     if (points_.size() - first_ <= max_ground_points) return;
     const auto first = points_.begin() + std::ptrdiff_t(first_), end = first + max_ground_points;
@@ -215,7 +215,7 @@ class TerrainContacts {
   }
 
   static constexpr int max_numbered = 64;
-  static constexpr std::size_t max_points = 2 * max_numbered;  ///< those found, before only some of them are kept
+  static constexpr std::size_t max_points = 2 * max_numbered;  ///< when so many are found, some are removed
   const Solid& solid_;
   const Terrain& terrain_;
   Sides sides_;
@@ -225,7 +225,7 @@ class TerrainContacts {
   int numbered_count_ = 0;
 };
 
-/// Whether what a few operations tell is all. Then it is added.
+/// Adds the points that a few operations find. Returns false, and adds none, if these may not be all.
 bool add_simple_points(const TransformedShape& shape, const Terrain& terrain, std::vector<ContactPoint>& points) {
   const std::size_t first = points.size();
   const KernelView view{shape};

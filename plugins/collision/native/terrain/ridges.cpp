@@ -8,31 +8,31 @@
 namespace muro::native {
 namespace {
 
-/// Sine of the angle between triangles that count as one plane: heights are numbers of 24 bits.
+/// Largest sine of the angle between triangles that count as one plane; heights are numbers of 24 bits.
 constexpr double least_fold = 1e-4;
 
-/// The lower side of a solid seen along an edge, and how far to the left of the edge it is.
+/// Lower side of a solid seen along an edge, and how far to the left of the edge it is.
 class EdgeView {
  public:
   EdgeView(const Solid& solid, const Vec3& on_edge, const Vec3& along)
       : solid_(solid), on_edge_(on_edge), along_(along) {}
 
   struct Lowest {
-    Vec3 normal, point;  ///< `point` of the core lies lowest along `normal`
+    Vec3 normal, point;  ///< `point` of the core is lowest along `normal`
     double aside;        ///< m, across the normal
   };
   Lowest along(const Vec3& normal) const { return along(Side{normal, solid_.core.support(-normal)}); }
   Lowest along(const Side& side) const { return {side.normal, side.lowest, aside(side.normal, side.lowest)}; }
   double depth(const Lowest& l) const { return l.normal.dot(on_edge_ - l.point) + solid_.core.ball; }
 
-  /// Where the lowest points change from one side of the edge to the other between two normals: that just over it.
+  /// Returns the lowest point just over the edge, where the lowest points change sides between two normals.
   std::optional<Lowest> between(Lowest left, Lowest right) const {
     if (!(left.aside < 0 && right.aside > 0)) return {};
     if (solid_.core.kind == ConvexCore::Kind::point) return of_point();
     const double rounding = 1e-11 * (left.point - right.point).norm();
     Vec3 normal = left.normal;
     for (int i = 0; i < 60; ++i) {
-      normal = (left.point - right.point).cross(along_);  // the left one is that on the right
+      normal = (left.point - right.point).cross(along_);  // `left.point` is on the right of the edge
       const double length = normal.norm();
       const bool is_between =
           length > 0 && normal.cross(left.normal).dot(along_) < 0 && right.normal.cross(normal).dot(along_) < 0;
@@ -50,7 +50,7 @@ class EdgeView {
 
  private:
   double aside(const Vec3& normal, const Vec3& point) const { return (point - on_edge_).dot(normal.cross(along_)); }
-  /// Of a sphere.
+  /// Returns the lowest point of a sphere.
   std::optional<Lowest> of_point() const {
     Vec3 way = solid_.core.centre - on_edge_;
     way -= way.dot(along_) * along_;
@@ -78,7 +78,7 @@ bool is_apart(const Solid& solid, const Vec3& from, const Vec3& to) {
 }
 
 void add_edge_contacts(const Solid& solid, const Edge& edge, std::vector<ContactPoint>& points) {
-  // what most edges fail comes first
+  // the test that most edges fail comes first
   const Vec3 way = edge.to - edge.from, fold = edge.left.normal.cross(edge.right.normal);
   if (!(fold.dot(way) > 0)) return;
   const auto is_below = [&](const Side& side) {
@@ -95,7 +95,7 @@ void add_edge_contacts(const Solid& solid, const Edge& edge, std::vector<Contact
   const Vec3& normal = lowest->normal;
   const double depth = view.depth(*lowest), size = solid.shape.half.norm();
   if (!(depth > 0)) return;
-  // sides and lines that lie along the edge touch it in several points
+  // sides and lines of the solid that lie along the edge touch it in several points
   contact_geometry::Feature line;
   line.count = 2;
   line.points[0] = line.support = edge.from;

@@ -6,20 +6,20 @@
 
 namespace muro::native {
 
-/// A triangle of a heightmap, or what is beyond the rim, as a solid sees it.
+/// A triangle of a heightmap, or the outside of its rim, relative to a solid.
 struct Side {
   Vec3 normal;  ///< unit, of the ground
-  Vec3 lowest;  ///< a point of the solid's core that is lowest along the normal
+  Vec3 lowest;  ///< point of the solid's core that is lowest along the normal
 };
 
-/// The triangles of a heightmap about a solid, each computed once where few are asked for.
+/// Triangles of a heightmap about a solid. Each is computed only once if few are needed.
 class Sides {
  public:
   Sides(const Solid& solid, const Terrain& terrain) : solid_(solid), terrain_(terrain) {}
 
   const Side& of(Heightmap::Cell c, bool upper) {
     const std::uint64_t number = 2 * (std::uint64_t(c.row) * terrain_.map().columns + c.column) + (upper ? 1 : 0);
-    // cells side by side, in rows of eight
+    // place of the cell in a block of eight by eight cells
     const std::size_t place = 2 * (8 * (c.row % 8) + c.column % 8) + (upper ? 1 : 0);
     if (numbers_[place] != number + 1) {
       sides_[place] = along(terrain_.normal(c, upper));
@@ -33,7 +33,7 @@ class Sides {
   static constexpr std::size_t places = 128;
   const Solid& solid_;
   const Terrain& terrain_;
-  std::uint64_t numbers_[places] = {};  ///< one more than the triangle's; 0: none
+  std::uint64_t numbers_[places] = {};  ///< number of the triangle plus one; 0: none
   Side sides_[places];
 };
 

@@ -10,23 +10,23 @@ using namespace contact_geometry;
 
 /// A convex shape in the frame of a heightmap.
 struct Solid {
-  TransformedShape shape;                   ///< of a hull the box around it
-  const CollisionGeometry* hull = nullptr;  ///< null: it is none
-  Pose pose;                                ///< of a hull
+  TransformedShape shape;                   ///< of a hull: the box around it
+  const CollisionGeometry* hull = nullptr;  ///< null: not a hull
+  Pose pose;                                ///< only of a hull
   ConvexCore core;
 
-  /// All in the world; `frame`: of the heightmap.
+  /// Makes a solid of arguments in the world. `frame`: of the heightmap.
   Solid(const TransformedShape& in_world, const Pose& frame);
   Solid(const TransformedShape& box, const CollisionGeometry& of_hull, const HullSupport& support, const Pose& at,
         const Pose& frame);
 
   contact_geometry::Feature feature_towards(const Vec3& direction) const;
-  /// The way out of the solid from a point in it, by one of its faces or through its round side.
+  /// A way out of the solid from a point in it, through one of its faces or its round side.
   struct WayOut {
-    Vec3 normal;   ///< unit, into the solid: along it a solid is pushed off the point
+    Vec3 normal;   ///< unit, into the solid: the solid is pushed off the point along it
     double depth;  ///< m, positive for points in the solid
   };
-  /// Calls `visit(way)` for each.
+  /// Calls `visit(way)` for each way out.
   template <class Visit>
   void each_way_out(const Vec3& point, Visit visit) const {
     const Vec3 d = point - shape.centre;

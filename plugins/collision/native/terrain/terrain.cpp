@@ -10,7 +10,7 @@
 namespace muro::native {
 namespace {
 
-/// Of heights of the file, which are numbers of 24 bits, and of the sums made of them.
+/// Relative rounding of heights of the file, which are numbers of 24 bits, and of their sums.
 constexpr double rounding = 1e-6;
 constexpr std::size_t max_tiles = std::size_t(1) << 22;
 
@@ -29,7 +29,7 @@ std::uint32_t clamped(std::int64_t cell, std::uint32_t nodes) {
   return std::uint32_t(std::clamp<std::int64_t>(cell, 0, std::int64_t(nodes) - 1));
 }
 
-/// `x`, `y`: m, the middle of the tile.
+/// Makes the tile over cells. `x`, `y` (m): the middle of the tile.
 TerrainTile tile_over(const Heightmap& map, const Cells& cells, double x, double y) {
   Interval slopes_x, slopes_y;
   const double per_x = map.size.z() / map.spacing_x(), per_y = map.size.z() / map.spacing_y();
@@ -101,7 +101,7 @@ void Terrain::add_level(double reach) {
 }
 
 bool Terrain::is_peak(std::uint32_t column, std::uint32_t row, const Vec3& normal) const {
-  constexpr double least_fall = 1e-4;  // of the length of an edge
+  constexpr double least_fall = 1e-4;  // as a part of the length of an edge
   constexpr int ways[6][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, -1}, {-1, 1}};
   const Vec3 node = map_.node(column, row);
   for (const auto& [x, y] : ways) {

@@ -10,10 +10,10 @@
 
 namespace muro::native {
 
-/// A heightmap of the scenery at its place, with tiles that tell how steep and how even it is.
+/// A heightmap of the scenery at its pose, with tiles that describe how steep and how even it is.
 class Terrain {
  public:
-  /// `map` is a view. `radius` (m): the farthest that a shape which may touch it reaches from its centre. [setup]
+  /// `map` is a view. `radius` (m): the farthest reach from its centre of a shape that may touch it. [setup]
   Terrain(const Heightmap& map, const Pose& pose, double radius);
   Terrain(const Terrain&) = delete;
   Terrain& operator=(const Terrain&) = delete;
@@ -32,10 +32,10 @@ class Terrain {
     for (std::uint32_t row = first.row; row <= last.row; ++row)
       for (std::uint32_t column = first.column; column <= last.column; ++column) visit(Heightmap::Cell{column, row});
   }
-  /// Calls `visit(from, to, left, right)` for the edges at -x and -y of a cell and that across it; at the rim also for
-  /// the others. Seen along an edge the triangle with `left` lies to the left; both are what `side_of(cell, upper)`
-  /// gives, but on the rim `right` is what `beyond(normal)` gives, of a horizontal unit normal, outward. Edges that do
-  /// not rise between their triangles are left out, and those of which `is_near(from, to)` is false.
+  /// Calls `visit(from, to, left, right)` for the edges at -x and -y of a cell and the edge across it, and at the rim
+  /// also for the other edges. Seen along an edge, the triangle with `left` lies to the left. `side_of(cell, upper)`
+  /// returns `left` and `right`. On the rim, `beyond(normal)` returns `right`, for a horizontal outward unit normal.
+  /// Edges that do not rise between their triangles are omitted, and those for which `is_near(from, to)` is false.
   template <class IsNear, class SideOf, class Beyond, class Visit>
   void each_edge(Heightmap::Cell c, IsNear is_near, SideOf side_of, Beyond beyond, Visit visit) const {
     const Vec3 first = map_.node(c.column, c.row), right = map_.node(c.column + 1, c.row),
@@ -45,7 +45,7 @@ class Terrain {
       const auto outside = beyond(outward(from, to));
       visit(from, to, side_of(c, upper), outside);
     };
-    // the heights of two nodes beside an edge, to those of its own
+    // whether the nodes of an edge lie higher than the two nodes beside it
     const auto rises = [](const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b) {
       return from.z() + to.z() > a.z() + b.z();
     };
@@ -65,14 +65,14 @@ class Terrain {
   /// Whether a plane through a node with a unit normal touches the surface around it in that node alone.
   bool is_peak(std::uint32_t column, std::uint32_t row, const Vec3& normal) const;
 
-  /// Unit, of a triangle.
+  /// Returns the unit normal of a triangle.
   Vec3 normal(Heightmap::Cell c, bool upper) const {
     const Heightmap::Triangle t = map_.triangle(c, upper);
     return (t[1] - t[0]).cross(t[2] - t[0]).normalized();
   }
 
  private:
-  /// Across an edge of the rim, horizontal.
+  /// Returns the horizontal unit normal of an edge of the rim, outward.
   static Vec3 outward(const Vec3& from, const Vec3& to) {
     return Vec3(to.y() - from.y(), from.x() - to.x(), 0).normalized();
   }

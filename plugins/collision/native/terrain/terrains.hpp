@@ -11,7 +11,7 @@
 
 namespace muro::native {
 
-/// The heightmaps of the scenery.
+/// Heightmaps of the scenery.
 class Terrains {
  public:
   /// Reads their files. [setup]
@@ -19,11 +19,11 @@ class Terrains {
   /// `radius` (m): the farthest that a shape of a robot reaches from its centre. [setup]
   void start(std::span<const Collider> colliders, double radius);
 
-  /// By the number of a collider; null: it is none.
+  /// Returns the terrain of a collider by its number; null: it is not a heightmap.
   const Terrain* of(std::uint32_t collider) const {
     return collider < by_collider_.size() ? by_collider_[collider] : nullptr;
   }
-  /// The box around a heightmap of the scenery and the ground below it; null: it is none.
+  /// Returns the box around a heightmap of the scenery and the ground below it; null: it is not a heightmap.
   const Aabb* box_of(const Shape& shape) const;
 
  private:

@@ -5,10 +5,10 @@
 
 namespace muro::terrain_contact {
 
-/// Gathers contacts in the frame of the heightmap, those in one place once.
+/// Collects contacts in the frame of the heightmap. Contacts in one place are kept once.
 class ContactCollector {
  public:
-  /// Contacts with a larger gap than `margin` (m) are left out. `size`: of the shape, m.
+  /// Omits contacts with a larger gap than `margin` (m). `size` (m): of the shape.
   ContactCollector(double margin, double size) : margin_(margin), size_(size), same_place_(1e-4 * size) {}
 
   double margin() const { return margin_; }
@@ -19,7 +19,8 @@ class ContactCollector {
   void add_on_terrain(const Vec3& point, const Vec3& normal, double gap) {
     add(point + 0.5 * gap * normal, normal, gap);
   }
-  /// In the world. Of more than fit the deepest, then always the one that is farthest from those chosen.
+  /// Writes the contacts in the world. If there are too many: the deepest, then repeatedly the farthest from those
+  /// chosen.
   int take(const Pose& map_pose, TerrainContacts& out);
 
  private:

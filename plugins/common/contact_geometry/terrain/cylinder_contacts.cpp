@@ -10,7 +10,7 @@ namespace muro::terrain_contact {
 
 namespace {
 
-/// rad: a cylinder that leans less stands on points of its rim that turn with it.
+/// Lean (rad) of a cylinder below which it stands on points of its rim that turn with it.
 constexpr double max_lean = 1e-3;
 
 struct Cylinder {
@@ -18,7 +18,7 @@ struct Cylinder {
   Pose pose;
 
   Vec3 axis() const { return pose.orientation * Vec3::UnitZ(); }
-  /// Points of the rims that are the lowest against `up` (unit): four of the lower rim, one of the upper.
+  /// Returns the lowest points of the rims against `up` (unit): four of the lower rim, one of the upper.
   std::array<Vec3, 5> lowest(const Vec3& up) const {
     Vec3 along = axis();
     if (along.dot(up) > 0) along = -along;
@@ -44,12 +44,12 @@ void add_rims(const Surface& surface, const Cylinder& cylinder, const Aabb& box,
       if (surface.covers(t, p, slack)) contacts.add_on_shape(p, t.normal, t.height_of(p));
   });
   if (contacts.count() > 0) return;
-  for (const Vec3& p : cylinder.lowest(Vec3::UnitZ()))  // between triangles that look aside
+  for (const Vec3& p : cylinder.lowest(Vec3::UnitZ()))  // between steep triangles
     if (const auto ground = surface.map().ground_at(p.x(), p.y()))
       contacts.add_on_shape(p, ground->normal, (p.z() - ground->height) * ground->normal.z());
 }
 
-/// A ridge against the side and the ends of a cylinder: the part of it that is inside.
+/// A ridge in a cylinder: the part of it between the side and the ends.
 class RidgeInCylinder {
  public:
   RidgeInCylinder(const Surface& surface, const SurfaceEdge& edge, const Cylinder& cylinder, const Pose& back)
@@ -90,7 +90,7 @@ class RidgeInCylinder {
     if (out < end_) end_ = out, end_cut_ = Cut::side;
     return begin_ < end_;
   }
-  /// Leaves the part in which `at` exceeds `speed` times the part.
+  /// Keeps the part of the ridge in which `at` exceeds `speed` times the position along the ridge.
   bool cut(double at, double speed, Cut by) {
     if (speed == 0) return at > 0;
     const double part = at / speed;
@@ -119,7 +119,7 @@ class RidgeInCylinder {
     return true;
   }
 
-  /// From a point inside along a unit vector, m.
+  /// Returns the way out (m) from a point inside, along a unit vector.
   double way_out(const Vec3& point, const Vec3& direction) const {
     double way = std::numeric_limits<double>::infinity();
     if (std::abs(direction.z()) > 1e-9)

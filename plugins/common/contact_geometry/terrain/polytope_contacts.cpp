@@ -9,7 +9,7 @@ namespace muro::terrain_contact {
 
 namespace {
 
-/// Looks up to the sky by more than this, else it holds nothing up.
+/// Least upward component of a normal; a face with less supports nothing.
 constexpr double least_rise = 0.02;
 
 struct Face {
@@ -22,7 +22,7 @@ void add_corner(const Surface& surface, const Vec3& corner, ContactCollector& co
     contacts.add_on_shape(corner, ground->normal, (corner.z() - ground->height) * ground->normal.z());
 }
 
-/// A ridge against the faces of a shape: the part of it that is in the shape.
+/// A ridge in a shape with faces: the part of it that is inside.
 template <class FaceAt>
 class RidgeInFaces {
  public:
@@ -57,7 +57,8 @@ class RidgeInFaces {
     return begin_ < end_;
   }
 
-  /// By the face that is the shortest way out, of those that the ridge may push: not that which cuts it off.
+  /// Adds a contact at an end: through the face with the shortest way out that the ridge may push, except the one that
+  /// cuts it off.
   bool add_end(double part, int cut_by, const std::uint32_t (&node)[2], ContactCollector& contacts) {
     const Vec3 point = at(part);
     double least = std::numeric_limits<double>::infinity();
@@ -77,7 +78,7 @@ class RidgeInFaces {
     return true;
   }
 
-  /// Where an edge or a corner of the shape is on the ridge: out along the ridge's own normal.
+  /// Handles an edge or a corner of the shape on the ridge: the way out is along the ridge's own normal.
   void add_middle(ContactCollector& contacts) {
     const Vec3 point = at(0.5 * (begin_ + end_)), down = pose_.orientation.conjugate() * Vec3(-edge_.normal);
     double depth = std::numeric_limits<double>::infinity();
@@ -96,7 +97,7 @@ class RidgeInFaces {
   const FaceAt& face_;
   Vec3 from_, to_;  ///< in the frame of the shape
   double begin_ = 0, end_ = 1;
-  int begin_face_ = -1, end_face_ = -1;  ///< that cut it off; -1: it ends at a node
+  int begin_face_ = -1, end_face_ = -1;  ///< faces that cut it off; -1: it ends at a node
 };
 
 template <class FaceAt>

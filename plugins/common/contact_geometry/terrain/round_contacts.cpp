@@ -9,7 +9,7 @@ namespace muro::terrain_contact {
 
 namespace {
 
-/// Of the surface within reach of an end of the segment; the end may be under it.
+/// Adds contacts with the surface within reach of an end of the segment; the end may be under the surface.
 void add_end(const Surface& surface, const Vec3& end, double radius, ContactCollector& contacts) {
   const double reach = radius + contacts.margin();
   if (const auto ground = surface.map().ground_at(end.x(), end.y()); ground && end.z() < ground->height) {
@@ -17,7 +17,7 @@ void add_end(const Surface& surface, const Vec3& end, double radius, ContactColl
                           (end.z() - ground->height) * ground->normal.z() - radius);
     return;
   }
-  // A foot on an edge belongs to both of its triangles, were they not in a plane to the last digit.
+  // With the slack, a foot on an edge belongs to both triangles even if rounding keeps them out of one plane.
   const double slack = 2e-4 * reach;
   surface.each_triangle({end.array() - reach, end.array() + reach}, [&](const Surface::Triangle& t) {
     const double height = t.height_of(end);
@@ -32,8 +32,8 @@ Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& p) {
   return length > 0 ? Vec3(a + std::clamp(along.dot(p - a) / length, 0.0, 1.0) * along) : a;
 }
 
-/// Nearest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9): of an edge, by its part, and of the
-/// axis from `a` to `b`.
+/// Finds the nearest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9). Returns that of the edge,
+/// as a part of it; `on_axis`: that of the axis from `a` to `b`.
 double part_nearest_to(const SurfaceEdge& edge, const Vec3& a, const Vec3& b, Vec3& on_axis) {
   const Vec3 along = edge.end - edge.begin, axis = b - a, between = edge.begin - a;
   const double e = along.squaredNorm(), f = axis.squaredNorm(), c = along.dot(between);

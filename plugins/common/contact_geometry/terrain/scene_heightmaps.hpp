@@ -9,13 +9,13 @@
 
 namespace muro::terrain_contact {
 
-/// The heightmaps of a scene's scenery.
+/// Heightmaps of a scene's scenery.
 class SceneHeightmaps {
  public:
-  /// Reads the files of all. One that cannot be read is refused: see mesh::refuse_collision_mesh. [setup]
+  /// Reads the files of all. A file that cannot be read is refused: see mesh::refuse_collision_mesh. [setup]
   void load(Connector& c);
   bool empty() const { return files_.empty(); }
-  /// Of a shape of kind heightmap; as long as this lives.
+  /// Returns the heightmap of a shape of kind heightmap; valid as long as this object lives.
   Heightmap of(const Shape& shape) const { return files_.at(shape.mesh)->heightmap(shape.size); }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kinds of shapes on a heightmap, in its frame.
+// Contacts of each kind of shape with a heightmap, in its frame.
 #pragma once
 
 #include "contact_collector.hpp"
@@ -7,10 +7,10 @@
 
 namespace muro::terrain_contact {
 
-/// All within `radius` (m) of the segment from `a` to `b`, which may be one point.
+/// Adds contacts of all points within `radius` (m) of the segment from `a` to `b`, which may be one point.
 void add_round_contacts(const Surface& surface, const Vec3& a, const Vec3& b, double radius,
                         ContactCollector& contacts);
-/// `pose`: in the frame of the heightmap; `box`: around the shape there.
+/// Adds contacts of a box. `pose`: in the frame of the heightmap; `box`: around the shape there.
 void add_box_contacts(const Surface& surface, const Vec3& size, const Pose& pose, const Aabb& box,
                       ContactCollector& contacts);
 void add_hull_contacts(const Surface& surface, const mesh::Hull& hull, const Pose& pose, const Aabb& box,

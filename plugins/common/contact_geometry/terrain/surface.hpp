@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The triangles, edges and nodes of a heightmap near a shape.
+// Triangles, edges and nodes of a heightmap near a shape.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,14 @@
 
 namespace muro::terrain_contact {
 
-/// An edge of the surface, with what lies to its sides.
+/// An edge of the surface, with the directions to its sides.
 struct SurfaceEdge {
   Vec3 begin, end;  ///< m
-  Vec3 inward[2];   ///< unit: from the edge into its triangles, at right angles to it; at a rim both are one
+  Vec3 inward[2];   ///< unit: from the edge into its triangles, at right angles to it; at a rim both are equal
   Vec3 normal;      ///< unit: between those of its triangles
   std::uint32_t first[2], second[2];  ///< column and row of its nodes
 
-  /// Whether what is pushed along `n` (unit) leaves both triangles behind.
+  /// Whether a shape that is pushed along `n` (unit) moves away from both triangles.
   bool allows(const Vec3& n) const {
     constexpr double slack = 1e-3;
     return n.z() > 0 && n.dot(inward[0]) <= slack && n.dot(inward[1]) <= slack;
@@ -45,7 +45,7 @@ class Surface {
     return u >= -du && v >= -dv && u + v <= 1 + du + dv;
   }
 
-  /// Calls `visit(triangle)` for those that a box may touch, or that are over it.
+  /// Calls `visit(triangle)` for triangles that a box may touch, or that are over it.
   template <class Visit>
   void each_triangle(const Aabb& box, Visit visit) const {
     each_cell(box, [&](Heightmap::Cell c) {
@@ -53,7 +53,7 @@ class Surface {
     });
   }
 
-  /// Calls `visit(edge)` for those near a box that stand out: on whose both sides the surface falls away, or ends.
+  /// Calls `visit(edge)` for edges near a box that stand out: the surface falls away, or ends, on both sides.
   template <class Visit>
   void each_ridge(const Aabb& box, Visit visit) const {
     each_cell(box, [&](Heightmap::Cell c) {
@@ -65,7 +65,7 @@ class Surface {
       };
       const auto ridge = [&](const Vec3& p, std::uint32_t pi, std::uint32_t pj, const Vec3& q, std::uint32_t qi,
                              std::uint32_t qj, const Vec3* one, const Vec3* other) {
-        // the middle of the edge is over that of the corners to its sides, which is the same on the map
+        // compares the middle of the edge with that of the corners to its sides, which is at the same place of the map
         if (other && p.z() + q.z() <= one->z() + other->z()) return;
         SurfaceEdge edge{p, q, {}, {}, {pi, pj}, {qi, qj}};
         if (near(p, q) && stands_out(edge, one, other)) visit(edge);
@@ -91,7 +91,7 @@ class Surface {
     });
   }
 
-  /// Whether what is pushed along `n` (unit) by a node leaves all triangles about it behind.
+  /// Whether a shape that a node pushes along `n` (unit) moves away from all triangles about the node.
   bool allows(std::uint32_t column, std::uint32_t row, const Vec3& n) const {
     constexpr double slack = 1e-3;
     constexpr int neighbours[6][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, -1}, {-1, 1}};
@@ -106,7 +106,7 @@ class Surface {
   }
 
  private:
-  /// Edges whose triangles lean against each other by less (rad) are flat.
+  /// Angle (rad) between two triangles below which their edge is flat.
   static constexpr double flat = 1e-4;
 
   Triangle triangle(Heightmap::Cell c, bool upper) const {
@@ -130,7 +130,8 @@ class Surface {
     return map_.size.z() * double(map_.values[std::size_t(row) * map_.columns + column]);
   }
 
-  /// `one`, `other`: the third corners of its triangles; null beyond a rim. Finds what lies to its sides.
+  /// Sets the sides of an edge. Returns whether it stands out. `one`, `other`: third corners of its triangles; null:
+  /// rim.
   static bool stands_out(SurfaceEdge& edge, const Vec3* one, const Vec3* other) {
     const Vec3 along = (edge.end - edge.begin).normalized();
     const auto into = [&](const Vec3& corner) {

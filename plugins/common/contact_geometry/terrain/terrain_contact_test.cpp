@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contacts of shapes with heightmaps against the closed forms of a plane, ridges and peaks, and against points of the
-// surface that are in a shape.
+// Compares contacts of shapes with heightmaps with the closed forms of a plane, ridges and peaks, and with points of
+// the surface that are in a shape.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double margin = 0.02;
 
-/// A grid whose heights a function gives.
+/// A heightmap with heights given by a function.
 struct Hills {
   std::vector<float> values;
   Heightmap map;
@@ -43,7 +43,7 @@ std::vector<ConvexShape> shapes(const mesh::Hull& hull) {
           {.kind = ShapeKind::mesh, .size = {1, 1, 1}, .hull = &hull}};
 }
 
-/// How far the shape reaches along `n` from its origin.
+/// Returns how far the shape reaches along `n` from its origin.
 double reach(const ConvexShape& s, const Vec3& n) {
   const Vec3 d = s.pose.orientation.conjugate() * n;
   switch (s.kind) {
@@ -140,7 +140,7 @@ TEST(TerrainContacts, OfABallHaveTheNearestPointsOfTheSurface) {
   for (int i = 0; i < 300; ++i) {
     ConvexShape ball{.kind = ShapeKind::sphere, .size = {0.15, 0, 0}};
     const double x = place(random), y = place(random);
-    // the lowest place in which it is clear of the surface, by points 2 mm from each other, which may miss 3 mm
+    // the lowest place where it is clear of the surface, found by points 2 mm apart, which may be wrong by 3 mm
     double low = 0;
     for (double u = -0.16; u <= 0.16; u += 0.002)
       for (double v = -0.16; v <= 0.16; v += 0.002)
@@ -177,7 +177,7 @@ TEST(TerrainContacts, AreThereWhereTheSurfaceIsInTheShapeAndNowhereElse) {
     for (int i = 0; i < 150; ++i) {
       const double x = place(random), y = place(random), z = above(random);
       shape.pose = {{x, y, z}, random_turn(random)};
-      bool inside = false, near = false;  // of points of the surface, and what they are over
+      bool inside = false, near = false;  // points of the surface inside the shape, and near it
       for (double u = -0.3; u <= 0.3; u += 0.005)
         for (double v = -0.3; v <= 0.3; v += 0.005) {
           const Vec3 p(x + u, y + v, rough.map.ground_at(x + u, y + v)->height);

@@ -8,7 +8,7 @@ namespace muro::terrain_contact {
 
 namespace {
 
-/// `pose`: in the frame of the heightmap.
+/// Returns the box around a shape. `pose`: in the frame of the heightmap.
 Aabb box_around(const ConvexShape& shape, const Pose& pose) {
   if (!shape.hull) return bounds_of({.kind = shape.kind, .size = shape.size}, pose);
   Aabb box;

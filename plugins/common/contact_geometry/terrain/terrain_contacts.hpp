@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where convex shapes touch a heightmap, in closed form: for motions by engines whose own height fields do not carry
-// bodies as well.
+// Contacts of convex shapes with a heightmap, in closed form. For motions by engines whose own height fields do not
+// support bodies as well.
 #pragma once
 
 #include <array>
@@ -28,11 +28,11 @@ struct TerrainContact {
 inline constexpr int max_contacts = 8;
 using TerrainContacts = std::array<TerrainContact, max_contacts>;
 
-/// Where a shape is within `margin` (m) of the surface or under it, however deep: what is below a heightmap is solid,
-/// and beyond its rim is nothing. Corners, rims and the ends of round shapes touch triangles; nodes and edges of the
-/// surface that stand out touch shapes, and push along a normal between those of their triangles, so that what rolls
-/// over a plane of triangles feels no edge. Returns the number of contacts: of more, the deepest and those that are
-/// far from each other; none of a shape that is nowhere. [any thread]
+/// Finds where a shape is within `margin` (m) of the surface or under it, however deep. All below a heightmap is solid,
+/// and there is nothing beyond its rim. Corners, rims and the ends of round shapes touch triangles. Nodes and edges of
+/// the surface that stand out touch shapes, and push along a normal between those of their triangles, so that a shape
+/// that rolls over a plane of triangles feels no edge. Returns the number of contacts. If there are too many, keeps the
+/// deepest and those that are far from each other. A pose that is not finite has none. [any thread]
 int find_contacts(const Heightmap& map, const Pose& map_pose, const ConvexShape& shape, double margin,
                   TerrainContacts& contacts);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Between Bullet's types and muro's.
+// Conversions between Bullet's types and muro's.
 #pragma once
 
 #include <LinearMath/btTransform.h>

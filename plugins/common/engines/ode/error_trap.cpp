@@ -13,7 +13,7 @@ namespace {
 
 thread_local MessageLog* trap = nullptr;
 
-/// Each plugin that uses ODE has handlers of its own, since each has a copy of this file: they form a chain.
+/// Handlers before. Each plugin that uses ODE has its own handlers and a copy of this file: they form a chain.
 dMessageFunction *next_error = nullptr, *next_debug = nullptr, *next_message = nullptr;
 
 std::string text_of(const char* format, va_list arguments) {
@@ -22,7 +22,7 @@ std::string text_of(const char* format, va_list arguments) {
   return text;
 }
 
-/// ODE ends the process when its handlers for errors return.
+/// Throws or prints an error. ODE ends the process when its handlers for errors return.
 void handle(dMessageFunction* next, const char* title, int number, const char* format, va_list arguments) {
   if (trap) throw Error("ODE: " + text_of(format, arguments));
   if (next) return next(number, format, arguments);

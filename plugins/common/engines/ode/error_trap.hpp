@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Errors and messages of the Open Dynamics Engine, which by itself ends the process or writes to stderr.
+// Errors and messages of the Open Dynamics Engine, which otherwise ends the process or writes to stderr.
 #pragma once
 
 #include <atomic>
@@ -10,14 +10,14 @@
 
 namespace muro::ode {
 
-/// What ODE tells, each kind of message once, through the log of a host. [any thread]
+/// Writes ODE's messages to the log of a host, each kind of message once. [any thread]
 class MessageLog {
  public:
-  /// `teller`: who uses ODE, such as "motion.ode". None of its messages are shown without a host.
+  /// `teller`: the user of ODE, such as "motion.ode". Without a host no messages are shown.
   MessageLog() = default;
   MessageLog(Host& host, std::string_view teller) : host_(&host), teller_(teller) {}
 
-  /// `kind`: the constant text of which ODE makes the message; true the first time that it comes.
+  /// Whether a message is new: true the first time it comes. `kind`: the constant text of which ODE makes the message.
   bool is_new(const char* kind);
   void tell(const std::string& message);
 
@@ -29,8 +29,8 @@ class MessageLog {
   std::atomic<const char*> kinds_[max_kinds] = {};
 };
 
-/// While one lives, failed assertions and errors of ODE in its thread throw Error, and messages go to a MessageLog.
-/// What ODE was doing is half done then: neither the world nor the spaces that took part can be used or destroyed.
+/// While a trap lives, failed assertions and errors of ODE in its thread throw Error, and messages go to a MessageLog.
+/// After a throw ODE's work is half done: neither the world nor the spaces that took part can be used or destroyed.
 class ErrorTrap {
  public:
   explicit ErrorTrap(MessageLog& messages);
@@ -42,7 +42,7 @@ class ErrorTrap {
   MessageLog* outer_;
 };
 
-/// Makes ODE ask the traps of this plugin first, then who was asked before. Once a process is enough. [any thread]
+/// Makes ODE call the traps of this plugin first, then the handlers before. Once a process is enough. [any thread]
 void set_error_handlers();
 
 }  // namespace muro::ode

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Errors of the Open Dynamics Engine, which end the process by themselves.
+// Errors of the Open Dynamics Engine, which otherwise end the process.
 #include <gtest/gtest.h>
 #include <ode/ode.h>
 
@@ -16,7 +16,7 @@ struct Log final : Host {
   void log(LogLevel, std::string_view line) noexcept override { text += std::string(line) + "\n"; }
 };
 
-/// ODE asserts that a box has no negative length.
+/// Fails an assertion of ODE: a box must not have a negative length.
 void fail_an_assertion() { dGeomDestroy(dCreateBox(nullptr, -1, 1, 1)); }
 
 TEST(OdeErrors, AreExceptionsWhileATrapLives) {

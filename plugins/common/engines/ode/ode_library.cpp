@@ -7,7 +7,7 @@
 namespace muro::ode {
 
 void start_library() {
-  struct Library {  // counted by ODE: others in the process may use it as well
+  struct Library {  // ODE counts its users: others in the process may use it as well
     bool runs = dInitODE2(0) != 0;
     ~Library() {
       if (runs) dCloseODE();

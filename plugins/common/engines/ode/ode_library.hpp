@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Open Dynamics Engine as a library: its start, and its types beside muro's.
+// Start of the Open Dynamics Engine in a process, and conversions between its types and muro's.
 #pragma once
 
 #include <ode/ode.h>
@@ -8,9 +8,9 @@
 
 namespace muro::ode {
 
-/// Starts ODE in this process, and closes it when the process ends; once is enough. Throws Error. [any thread]
+/// Starts ODE in this process, and closes it when the process ends. One call is enough. Throws Error. [any thread]
 void start_library();
-/// Allocates what ODE needs for each thread that collides; once a thread is enough. Throws Error. [any thread]
+/// Allocates what ODE needs for each thread that collides. One call a thread is enough. Throws Error. [any thread]
 void prepare_this_thread();
 
 inline Vec3 vector_of(const dReal* v) { return {v[0], v[1], v[2]}; }
@@ -22,7 +22,7 @@ inline void copy_quaternion(dQuaternion to, const Quat& q) {
   to[3] = q.z();
 }
 
-/// A box, sphere, cylinder or capsule in `space` (null: in none); null for other shapes.
+/// Creates a box, sphere, cylinder or capsule in `space` (null: in none). Returns null for other shapes.
 dGeomID create_primitive(const Shape& shape, dSpaceID space);
 
 }  // namespace muro::ode

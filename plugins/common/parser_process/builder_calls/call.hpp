@@ -47,8 +47,8 @@ enum class Call : std::uint8_t {
   world_report,
 };
 
-/// The constants that a record can hold, by their call; each is one value but the shapes, their
-/// materials and the subsystems, which are arrays.
+/// Constants that a record can hold, by their call. Each is one value, except the shapes, their materials and the
+/// subsystems, which are arrays.
 inline constexpr std::array<std::pair<Call, const KeyInfo*>, 15> constants{
     {{Call::inertial, &keys::inertial},
      {Call::collision_shapes, &keys::collision_shapes},

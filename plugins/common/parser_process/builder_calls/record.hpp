@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Builders that write down what they are told.
+// Builders that record their calls.
 #pragma once
 
 #include <optional>
@@ -35,7 +35,7 @@ class RobotRecorder final : public RobotBuilder {
   std::uint32_t texts_ = 0;
 };
 
-/// The same for a world.
+/// Writes the calls of a reader for a world to a message.
 class WorldRecorder final : public WorldBuilder {
  public:
   explicit WorldRecorder(parser_process::Writer& out) : out_(out) {}

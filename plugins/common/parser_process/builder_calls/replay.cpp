@@ -12,7 +12,7 @@ using parser_process::Reader;
 
 [[noreturn]] void fail() { throw Error("what the parser process has recorded is garbled"); }
 
-/// The numbers that a builder has given to texts, by those of the record.
+/// Numbers that a builder has given to texts, by the numbers of the record.
 class Texts {
  public:
   void add(TextId id) { ids_.push_back(id); }
@@ -49,7 +49,7 @@ Report report_in(Reader& calls) {
   return {severity, std::move(text), line, calls.value<int>()};
 }
 
-/// The calls for one robot.
+/// Makes the calls for one robot.
 class RobotReplay {
  public:
   explicit RobotReplay(RobotBuilder& builder) : builder_(builder) {}
