@@ -89,7 +89,7 @@ std::uint32_t PropertyStore::column_of(Accessor accessor, const KeyInfo& key) {
                     key.name, known.unit, key.unit, accessors));
   else
     return it->second;
-  columns_.emplace_back(key);  // memory of the right size, so that set-up can go on to the next problem
+  columns_.emplace_back(key);  // memory of the right size, so that the set-up can go on to the next problem
   column_accessor_.push_back(accessor);
   return std::uint32_t(columns_.size() - 1);
 }
@@ -257,7 +257,7 @@ void* PropertyStore::bind(Accessor accessor, ObjectId object, const KeyInfo& key
   use(*s, id, accessor, usage);
   if (initial && s->kind != Slot::Class::constant && (!s->initialised || (usage == usage::variable && !inactive))) {
     std::memcpy(s->place, initial, key.type->size);
-    s->initialised = usage == usage::variable || usage == usage::input;  // others only fill what nobody has set
+    s->initialised = usage == usage::variable || usage == usage::input;  // others only set what has no value yet
   }
   if (creates) s->object = object;
   return handle(*s, usage);
@@ -271,7 +271,7 @@ void PropertyStore::let_alternate(const std::vector<ObjectId>& objects, const st
 void* PropertyStore::state_block(Accessor accessor, ObjectId object, std::string_view name, std::uint32_t size) {
   const std::string& key_name = texts_.emplace_back("state." + std::string(name));
   const KeyInfo key{key_name, "1", &value_type<std::uint8_t>, Role::state, "state that only its owner understands"};
-  const std::uint32_t rounded = (std::max(size, 1u) + 63) / 64 * 64;  // so that each block begins aligned for any type
+  const std::uint32_t rounded = (std::max(size, 1u) + 63) / 64 * 64;  // so that each block is aligned for any type
   const auto* array = static_cast<const ArrayHeader*>(
       bind(accessor, object, key, usage::variable, Multiplicity::array, rounded, nullptr));
   return array->data;

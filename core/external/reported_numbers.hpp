@@ -10,7 +10,7 @@
 
 namespace muro {
 
-/// Numbers that algorithms have told for the report, in the order in which they were told first.
+/// Numbers that algorithms have given for the report, in the order in which each was given first.
 class ReportedNumbers final : public ReportEntries, public ReportNumbers {
  public:
   template <class T>
@@ -29,7 +29,7 @@ class ReportedNumbers final : public ReportEntries, public ReportNumbers {
  private:
   template <class T>
   static T& at(Named<T>& all, std::string_view name) {
-    // the last one first: what belongs together is told in a row
+    // search from the end: numbers that belong together are given one after the other
     for (auto i = all.rbegin(); i != all.rend(); ++i)
       if (i->first == name) return i->second;
     return all.emplace_back(std::string(name), T{}).second;
