@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a drive has to move: the inertia of the bodies behind a joint.
+// Inertia that a drive has to move: that of the bodies behind a joint.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,10 @@
 
 namespace muro {
 
-/// The inertia (kg m^2 or kg) that the joint of link `joint` and the mimic joints that follow it move, all other
-/// joints and the base held: the element of the joint-space inertia matrix on its diagonal (Featherstone, Rigid Body
-/// Dynamics Algorithms, Section 6.2). `inertias`, `positions` (rad or m): one a link. [setup]
+/// Inertia (kg m^2 or kg) that the joint of link `joint` and the mimic joints that follow it move, while all other
+/// joints and the base are fixed. It is the joint's element on the diagonal of the joint-space inertia matrix
+/// (Featherstone, Rigid Body Dynamics Algorithms, Section 6.2). `inertias`, `positions` (rad or m): one for each link.
+/// [setup]
 inline double joint_inertia(std::span<const Link> links, std::span<const Inertia> inertias,
                             std::span<const double> positions, std::size_t joint) {
   std::vector<Pose> in_base(links.size());
