@@ -48,7 +48,7 @@ class Instance final : private Connector {
   const Description& description() const { return *entry_.description; }
   abi::AlgorithmInstance& algorithm() { return *algorithm_; }
   Accessor accessor() const { return accessor_; }
-  /// Its names in messages about its calls.
+  /// Names of the algorithm in messages about its calls.
   const std::shared_ptr<const Callee>& callee() const { return callee_; }
 
   /// Sets the rate to that of its sequence. [before connect]

@@ -21,7 +21,8 @@ class OutputError final : public SetupError {
 /// by any path or link.
 class OutputRegistry final : public Outputs {
  public:
-  /// Sets who names files from now on, as in messages: "log (recorder.csv, urban.yaml:7:3)", "--report".
+  /// Sets the owner of the files that are named from now on, as in messages: "log (recorder.csv, urban.yaml:7:3)",
+  /// "--report".
   void set_owner(std::string owner) { owner_ = std::move(owner); }
   void file(std::string_view path) noexcept override;
   void series(std::string_view begin, std::string_view end) noexcept override;

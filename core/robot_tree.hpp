@@ -120,7 +120,7 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
     std::int32_t node = -1;
     std::int32_t link = -1;
     Pose since;            ///< pose relative to that link
-    bool unnamed = false;  ///< the link's joint has no body yet, and nothing lies between them
+    bool unnamed = false;  ///< the link's joint has no body yet, and is the last block
     int branches = 0;      ///< number of closed branches of a fork
     bool closed = false;   ///< after a fork with two closed branches: nothing may follow
   };

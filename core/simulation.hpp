@@ -104,7 +104,7 @@ class Simulation {
   void stop();
   /// Whether stop() was called, or an algorithm has ended the run.
   bool stopped() const;
-  /// Tells algorithms that the run is over for now: recorders write their files.
+  /// Informs algorithms that the run is over for now: recorders write their files.
   void finish();
 
   /// Updates the poses of all bodies to `now`, for readers between runs. Has no influence on the run.
@@ -124,7 +124,7 @@ class Simulation {
   void place(const Placement& placement);
   /// Sets the check for overlaps; without it, everything may be put anywhere. [setup]
   void set_overlap_check(OverlapCheck check) { overlap_check_ = std::move(check); }
-  /// Tells algorithms that keep something of the state that it was changed from outside. [between runs]
+  /// Informs algorithms that keep parts of the state that it was changed from outside. [between runs]
   void tell_of_change();
   /// Number of jumps of poses: by placing, a reset or a restored snapshot.
   std::uint64_t jumps() const { return jumps_; }
@@ -170,7 +170,7 @@ class Simulation {
   std::unique_ptr<Levels> levels_;
   std::vector<TaskId> tasks_;
   Snapshot initial_;
-  std::int64_t sampling_period_ = 0;  ///< ns; 0: nobody samples
+  std::int64_t sampling_period_ = 0;  ///< ns; 0: no sampling
   std::function<void()> sample_;
   OverlapCheck overlap_check_;
   std::uint64_t jumps_ = 0;

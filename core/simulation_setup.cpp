@@ -87,7 +87,7 @@ void Simulation::partition_memory() {
   world_.store().set_partitions(std::move(partitions));
 }
 
-/// Tells each motion which of its robots another one moves at the start.
+/// Marks for each motion those of its robots that another motion moves at the start.
 void Simulation::mark_inactive_motions() {
   for (const auto& instance : instances_) {
     std::vector<bool> inactive(world_.robots().size());

@@ -157,7 +157,7 @@ std::string RunRequests::carry_out(Simulation& simulation, Kind kind, std::strin
         simulation.reset();
         return "";
       case Kind::stop:
-        if (inputs_.may_open()) simulation.stop();  // an inspection of the recorded run may go on after it
+        if (inputs_.may_open()) simulation.stop();  // an inspection of the recorded run does not stop here
         has_stopped_ = true;
         return "";
       case Kind::snapshot:

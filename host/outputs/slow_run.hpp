@@ -7,7 +7,7 @@
 
 namespace muro::host {
 
-/// Reports once that a run falls far behind real time: which algorithm takes the time, and what to do.
+/// Reports once that a run falls far behind real time: names the algorithm that takes the time, and a remedy.
 class SlowRun {
  public:
   static constexpr double slow = 0.1;    ///< simulated seconds per second of the wall clock

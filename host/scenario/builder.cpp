@@ -73,8 +73,7 @@ class SceneBuilder {
     return p.kind == Placement::Kind::grid ? std::size_t(p.columns) * std::size_t(p.rows) : p.poses.size();
   }
 
-  /// Finds the surfaces on which all other objects stand, whatever their order: first those without ground, then
-  /// floors.
+  /// Finds the surfaces on which all other objects stand, in any order: first those without ground, then floors.
   void find_terrain() {
     terrain_.add_scenery(world_);
     for (const bool floors : {false, true})

@@ -93,9 +93,8 @@ Vec3 ConvexBottom::furthest_in_shape(const Vec3& d) const {
   return Vec3::Zero();
 }
 
-/// Height of the lower hull at a point, by a simplex method: three points of the shape form a triangle that holds it;
-/// the point furthest below their plane replaces one of them, until there is none. The first three lie high around the
-/// shape.
+/// Height of the lower hull at a point, by a simplex method: three points of the shape form a triangle over it;
+/// the point furthest below their plane replaces one, until there is none. The first three are high around the shape.
 double ConvexBottom::height(double x, double y) const {
   const Vec3 q(x, y, 0), middle = 0.5 * (low_ + high_);
   const double far = 4 * (high_ - low_).norm() + hair, top = high_.z() + steepness * far;

@@ -78,7 +78,7 @@ void append(Subsystem& s, std::string_view list, std::string entry) {
   s.parameters[std::string(list)] = std::move(entries);
 }
 
-/// Gives the joints that the subsystem does not name the modes of the model, and its gains when the subsystem has none.
+/// Takes modes from the model for joints that the subsystem does not name, and gains if the subsystem has none.
 void add_drives(Subsystem& s, const Description& d, const std::vector<ModelDrive>& drives) {
   const Subsystem given = s;
   const bool takes_gains =

@@ -48,7 +48,7 @@ typedef struct {
 } muro_sine_and_cosine;
 muro_sine_and_cosine muro_sincos_by_value(double angle) MURO_BY_SLEEF(sincosd1_u10);
 
-/* Both for little more than the cost of one. The last bit may differ from that of muro_sin and muro_cos. */
+/* Sine and cosine for little more than the cost of one. The last bit may differ from that of muro_sin and muro_cos. */
 static inline void muro_sincos(double angle, double* sine, double* cosine) {
   const muro_sine_and_cosine both = muro_sincos_by_value(angle);
   *sine = both.sine;

@@ -134,7 +134,8 @@ class Accelerations {
       centre = {com.x() + q[3] * tx + q[1] * tz - q[2] * ty, com.y() + q[3] * ty + q[2] * tx - q[0] * tz,
                 com.z() + q[3] * tz + q[0] * ty - q[1] * tx};
     }
-    /// For by_forces: velocity of the centre. Uses numbers instead of vectors: it runs for each robot in each step.
+    /// Keeps the velocity of the centre, for by_forces. Uses numbers instead of vectors: it runs for each robot in each
+    /// step.
     void keep_velocity() {
       const double *v = twist->linear.data(), *w = twist->angular.data(), *c = centre.data();
       double *linear = before.linear.data(), *angular = before.angular.data();

@@ -23,7 +23,7 @@ struct SinCos {
 
 MURO_PURE double sin(double angle) MURO_BY_SLEEF(sind1_u10);
 MURO_PURE double cos(double angle) MURO_BY_SLEEF(cosd1_u10);
-/// Both for little more than the cost of one. The last bit may differ from that of `sin` and `cos`.
+/// Sine and cosine for little more than the cost of one. The last bit may differ from that of `sin` and `cos`.
 MURO_PURE SinCos sincos(double angle) MURO_BY_SLEEF(sincosd1_u10);
 MURO_PURE double tan(double angle) MURO_BY_SLEEF(tand1_u10);
 MURO_PURE double asin(double x) MURO_BY_SLEEF(asind1_u10);
