@@ -70,8 +70,7 @@ class Instance final : private Connector {
   /// Slots that it reads and slots that it writes, for the scheduler.
   std::vector<SlotId> reads() const;
   std::vector<SlotId> writes() const;
-  /// Adds indirect reads: the reader of a property that points into others (SceneIndex) reads all that its writer
-  /// reads.
+  /// Adds indirect reads: the reader of a property that points into others (SceneIndex) reads what its writer reads.
   void add_indirect_reads(const std::vector<const Instance*>& by_accessor);
   /// Every property that is not a constant, once. Contributions to a sum do not exclude each other, but they exclude
   /// readers of the sum.

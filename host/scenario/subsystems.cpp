@@ -36,8 +36,7 @@ bool Subsystems::add(const RobotTemplate& t, const RobotView& robot, const std::
   return moved;
 }
 
-/// Whether a robot has only one motion, or levels of one. A second one is often a misspelt name. `first`: the first
-/// one.
+/// Whether a robot has only one motion, or levels of one. Another one is often a misspelt name. `first`: the first.
 bool Subsystems::is_only_motion(const RobotTemplate& t, const Subsystem& s, const Subsystem*& first) {
   if (!first || (first->level && s.level)) {
     first = &s;

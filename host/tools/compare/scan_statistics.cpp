@@ -122,8 +122,7 @@ class Statistics {
 
   bool reads_mostly(const BeamSummary& b) const { return b.count > 0 && 2 * b.count >= s_.scans; }
 
-  /// Decides whether a beam is steady: it reads in most scans, always one surface, and its neighbours read the same
-  /// one.
+  /// Decides whether a beam is steady: it reads in most scans, always one surface, and so do its neighbours.
   void judge(std::size_t i) {
     BeamSummary& b = beams_[i];
     if (!reads_mostly(b)) return;

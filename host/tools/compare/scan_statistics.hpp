@@ -47,8 +47,7 @@ struct ScanStatistics {
   double mixed_share() const { return edges > 0 ? double(mixed_edges) / double(edges) : 0; }
 };
 
-/// Statistics of `record`, which has its angles. `true_ranges`: m, for each beam, no_range when unknown; empty:
-/// unknown.
+/// Statistics of `record`, which has its angles. `true_ranges`: m, by beam, no_range when unknown; empty: unknown.
 ScanStatistics statistics_of(const ScanRecord& record, const std::vector<double>& true_ranges = {});
 
 }  // namespace muro::host

@@ -70,8 +70,7 @@ std::string report_text(const Identification& identification, bool markdown);
 std::string report_json(const Identification& identification);
 /// Returns a line of a scenario: the motor as motor.servo takes it.
 std::string scenario_fragment(const Identification& identification);
-/// Returns errors over time, a panel for each record (SVG). `by`: the simulator, for the title; empty: identified
-/// model.
+/// Returns errors over time, a panel for each record (SVG). `by`: simulator, for the title; empty: identified model.
 std::string residual_plot(const Identification& identification, const std::string& by = "");
 
 }  // namespace muro::host

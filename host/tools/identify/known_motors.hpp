@@ -13,8 +13,7 @@ struct KnownMotor {
   double full_load;  ///< value of a record's `load` at full duty; 0: `load` is no duty
 };
 
-/// Oscilloscope values: MX, XL-320, STS3215 (Rhoban/bam). XL-330: 4096 / (2 pi) / (256 * 885), from its recorded
-/// duties.
+/// Oscilloscope values: MX, XL-320, STS3215 (Rhoban/bam). XL-330: 4096 / (2 pi) / (256 * 885), from recorded duties.
 inline constexpr KnownMotor known_motors[] = {{"mx", 0.158, 0.9625, 0},        {"xl320", 0.05048199, 1, 0},
                                               {"xl330", 0.0028773775, 1, 885}, {"xc330", 0.0028773775, 1, 885},
                                               {"sts3215", 0.166, 0.97, 0},     {"feetech_sts3215", 0.166, 0.97, 0}};

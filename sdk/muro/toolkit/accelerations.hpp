@@ -134,7 +134,7 @@ class Accelerations {
       centre = {com.x() + q[3] * tx + q[1] * tz - q[2] * ty, com.y() + q[3] * ty + q[2] * tx - q[0] * tz,
                 com.z() + q[3] * tz + q[0] * ty - q[1] * tx};
     }
-    /// Keeps the velocity of the centre, for by_forces. Uses numbers instead of vectors: it runs for each robot in each
+    /// Keeps the velocity of the centre, for by_forces. Numbers instead of vectors: it runs for each robot in each
     /// step.
     void keep_velocity() {
       const double *v = twist->linear.data(), *w = twist->angular.data(), *c = centre.data();

@@ -31,8 +31,7 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
 /// Longer words are not misspelled names, and take long to compare.
 inline constexpr std::size_t longest_misspelling = 100;
 
-/// Returns at most `most` candidates similar to `wrong`, the nearest first; those that contain it come before all
-/// others.
+/// Returns at most `most` candidates similar to `wrong`, the nearest first; those that contain it come before.
 inline std::vector<std::string> nearest_names(std::string_view wrong, std::span<const std::string> candidates,
                                               std::size_t most) {
   std::vector<std::pair<std::size_t, std::string>> found;
