@@ -104,11 +104,11 @@ std::string AccessCheck::name_of(const Memory& memory) const {
   return fmt::format("`{}:{}`", store_.object_name(s.object), store_.key_of(s).name);
 }
 
-/// From the state before the step to where a call begins: what phases hand on is there again, and nothing older.
+/// Repeats a step from its start to the begin of a call: only values that its phases have passed on are there again.
 bool AccessCheck::repeat_until(const Task& task, Step step, Range range, abi::ErrorText& error) {
   restore(before_step_);
   if (!task.instance->restored(error)) return false;
-  restore(before_step_);  // what is derived may have been cleared
+  restore(before_step_);  // derived values may have been cleared
   const std::uint32_t phase = step.phase;
   for (step.phase = 0; step.phase < phase; ++step.phase)
     if (!task.instance->step(step, {0, task.length(step.phase)}, error)) return false;
@@ -131,7 +131,7 @@ bool AccessCheck::call(const Task& task, const Step& step, Range range, abi::Err
       return false;
     }
   const Description& d = *found->description;
-  const bool talks = (d.capabilities & Capability::runs_alone) != 0;  // with the outside, which says a thing once
+  const bool talks = (d.capabilities & Capability::runs_alone) != 0;  // to programs that say a thing once
   const bool repeats = (d.capabilities & Capability::restorable) != 0 && d.kind != Kind::recorder && !talks;
   if (!repeats) return true;
 

@@ -11,14 +11,14 @@ namespace muro {
 
 class Instance;
 
-/// Proves that algorithms keep to the properties that they have declared.
+/// Checks that algorithms access only the properties that they have declared.
 ///
-/// Every call is made twice from the same state, with restored() and the calls before it in the same step in between.
-/// It asks for calls in the order of due tasks (see stages_of). The second time, all that the call has no right to read
-/// is poisoned, as AddressSanitizer poisons memory (here by bytes 0xff: not a number). The call must then write the
-/// same bits, and nothing but what it may write: else it reads or writes in secret, and could not run beside others.
-/// What a call has access to follows from the bindings of its instance and from the scope of its phase. Runs take many
-/// times longer.
+/// Every call is made twice from the same state. Between the two calls, restored() and the earlier calls of the same
+/// step are made. The calls must come in the order of the due tasks (see stages_of). Before the second call, everything
+/// that the call has no right to read is poisoned, as AddressSanitizer poisons memory (here with bytes 0xff: not a
+/// number). The call must then write the same bits, and only where it may write. Otherwise it has undeclared accesses
+/// and could not run in parallel with others. The accesses that a call may make follow from the bindings of its
+/// instance and from the scope of its phase. Runs take many times longer.
 class AccessCheck final : public CallObserver {
  public:
   AccessCheck(PropertyStore& store, const std::vector<Instance*>& instances, std::vector<RobotId> robot_of_slot);
@@ -28,7 +28,7 @@ class AccessCheck final : public CallObserver {
   /// The memory of one property, or of one contribution to a sum.
   struct Memory {
     std::uint32_t slot = 0;
-    Accessor contributor = setup_accessor;  ///< of a contribution to a sum
+    Accessor contributor = setup_accessor;  ///< the contributor, when this is a contribution to a sum
     std::byte* data = nullptr;
     std::size_t size = 0;
     ListHeader* list = nullptr;
@@ -38,7 +38,7 @@ class AccessCheck final : public CallObserver {
       return {static_cast<std::byte*>(list->data), list->size * list->element_size};
     }
   };
-  /// What an instance has bound, by slot.
+  /// The slots that an instance has bound, by slot.
   struct Bindings {
     const abi::AlgorithmInstance* algorithm = nullptr;
     const Description* description = nullptr;
@@ -46,7 +46,7 @@ class AccessCheck final : public CallObserver {
     std::vector<bool> reads, writes;
   };
   struct Allowed {
-    std::vector<bool> reads, writes;  ///< by number in memory_
+    std::vector<bool> reads, writes;  ///< by index in memory_
   };
   using Copy = std::vector<std::vector<std::byte>>;
 

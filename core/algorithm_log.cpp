@@ -11,7 +11,7 @@
 namespace muro {
 namespace {
 
-/// "urban.yaml:14:7: rovers.control (controller.library), robot `rover_3`, t = 0.500000 s: "; empty outside of calls.
+/// Returns "urban.yaml:14:7: rovers.control (controller.library), robot `rover_3`, t = 0.500000 s: ", or "".
 std::string by_whom(std::string_view text) {
   const RunningCall& call = running_call();
   if (!call.callee.load()) return "";

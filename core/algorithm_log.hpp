@@ -10,12 +10,12 @@
 
 namespace muro {
 
-/// The host of algorithms: hands on what they say, with who says it, and gives them extensions.
+/// The host of algorithms: passes on their log lines, with the name of the algorithm, and gives them extensions.
 class AlgorithmLog final : public Host {
  public:
   explicit AlgorithmLog(Extensions& extensions);
 
-  /// Where lines go; default: warnings and errors to standard error.
+  /// Receives the log lines; default: warnings and errors go to standard error.
   std::function<void(LogLevel, std::string_view)> sink;
   void log(LogLevel level, std::string_view text) noexcept override;
   void* find_extension(const ExtensionId& id) noexcept override;

@@ -11,7 +11,7 @@
 
 namespace muro {
 
-/// A parameter as the user gives it; numbers are taken for real and integer parameters alike.
+/// A parameter as the user gives it; a number is accepted for a real and for an integer parameter.
 using ParameterInput =
     std::variant<bool, std::int64_t, double, std::string, std::vector<double>, std::vector<std::string>>;
 
@@ -22,23 +22,23 @@ struct AlgorithmSetup {
   Rate rate;               ///< on demand when zero
   std::int64_t phase = 0;  ///< ns
   std::map<std::string, ParameterInput> parameters;
-  std::vector<Item> items;  ///< none: the world
-  /// What one item of a world (Capability::world) has of its own.
+  std::vector<Item> items;  ///< empty: the world
+  /// The values that belong to one item of a world (Capability::world).
   struct ItemSetup {
-    std::string name, place;  ///< as those of the setup
+    std::string name, place;  ///< as in AlgorithmSetup
     std::map<std::string, ParameterInput> parameters;
     std::map<std::string, std::string> parameter_places;
   };
-  std::vector<ItemSetup> item_setups;  ///< one an item; none: all have `parameters`
-  std::string subsystem;               ///< "motion": with the robot's name, keys the random numbers
+  std::vector<ItemSetup> item_setups;  ///< one for each item; empty: all items use `parameters`
+  std::string subsystem;               ///< "motion"; with the robot's name, it keys the random numbers
   std::string folder;                  ///< relative paths in parameters start here; "": the working directory
-  bool is_optional = false;            ///< where it cannot be connected it is left out, with a warning
+  bool is_optional = false;            ///< left out, with a warning, when it cannot be connected
   std::string place;                   ///< "file:line:column" of the scenario, put before messages; may be empty
-  /// Of parameters that are written elsewhere: in another file, or on the command line.
+  /// Places of parameters that are written elsewhere: in another file, or on the command line.
   std::map<std::string, std::string> parameter_places;
 };
 
-/// What stands before a message about something at `place`, a place in a file.
+/// The beginning of a message about something at `place`, a place in a file.
 inline std::string prefix_of(const std::string& place) { return place.empty() ? "" : place + ": "; }
 
 }  // namespace muro

@@ -5,8 +5,8 @@
 
 namespace muro {
 
-/// While it lives, C functions of this thread use the locale "C": numbers are read and written with a decimal point,
-/// whatever an embedding program has chosen by setlocale(). Plugins, their libraries and control code run within one.
+/// While an object of this class lives, C functions of its thread use the locale "C", with a decimal point in numbers,
+/// whatever an embedding program chose with setlocale(). Plugins, libraries and control code run in its lifetime.
 class CLocale {
  public:
   CLocale() : before_(uselocale(c())) {}

@@ -11,7 +11,7 @@ namespace muro {
 /// Lets several steps of the set-up fail, so that all their problems are reported at once.
 class CollectedProblems {
  public:
-  /// Whether `work` has succeeded.
+  /// Runs `work`. Returns whether it succeeded.
   template <class Work>
   bool run(Work work) {
     try {

@@ -20,8 +20,8 @@ class Column {
 
   const KeyInfo& key() const { return key_; }
 
-  /// Memory for `count` elements side by side, cleared. Between those of different partitions there is a gap:
-  /// processors read ahead, and should not read what another thread is working on.
+  /// Returns cleared memory for `count` contiguous elements. There is a gap between elements of different partitions:
+  /// processors read ahead, and should not read memory on which another thread works.
   void* allocate(std::size_t count, std::uint32_t partition) {
     const std::size_t bytes = count * key_.type->size;
     if (!chunks_.empty() && partition != partition_)
@@ -41,10 +41,10 @@ class Column {
   }
 
  private:
-  /// Much, so that few robots have their values in two chunks: what serves several at once needs equal distances.
-  /// Memory that nobody has touched costs nothing.
+  /// Large, so that only few robots have their values in two chunks: code that serves several robots at once needs
+  /// equal distances. Memory that nothing has touched costs nothing.
   static constexpr std::size_t chunk_bytes = 1 << 18;
-  static constexpr std::size_t gap = 1 << 12;  ///< processors read no further ahead
+  static constexpr std::size_t gap = 1 << 12;  ///< processors do not read further ahead than this
   static constexpr std::size_t alignment = 64;
   struct Free {
     void operator()(void* p) const { std::free(p); }
@@ -67,7 +67,7 @@ class Column {
   }
 
   KeyInfo key_;
-  std::uint32_t partition_ = 0;  ///< of the last element
+  std::uint32_t partition_ = 0;  ///< partition of the last element
   std::vector<Chunk> chunks_;
 };
 

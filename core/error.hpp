@@ -8,14 +8,14 @@
 
 namespace muro {
 
-/// `text` as it is shown to a user, in lines: control characters are escaped, and what stands in backquotes and is
-/// longer than a name or a path of a file is cut. A message may hold names from files that nobody has looked at.
+/// Returns `text` as it is shown to a user, with its lines. Control characters are escaped. A text in backquotes that
+/// is longer than a name or a path of a file is cut. A message may hold names from files that nothing has checked.
 std::string message_text(std::string_view text);
 
-/// `name` in backquotes, in one line, cut where it is long: for names and values from outside.
+/// Returns `name` in backquotes, on one line, cut when it is long: for names and values from outside.
 std::string in_backquotes(std::string_view name);
 
-/// A mistake of the user that was found before the simulation could run: one line for each problem.
+/// A mistake of the user that was found before the simulation could run; one line for each problem.
 class SetupError : public std::runtime_error {
  public:
   explicit SetupError(const std::string& message) : std::runtime_error(message_text(message)) {}

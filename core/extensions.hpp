@@ -26,7 +26,7 @@ class UsedLibraries final : public LoadedLibraries {
   std::vector<UsedLibrary> all_;
 };
 
-/// The note of the calling thread, in its RunningCall.
+/// Returns the note of the calling thread, in its RunningCall.
 class NotesOfThreads final : public CallNotes {
  public:
   CallNote& of_this_thread() noexcept override;
@@ -37,8 +37,8 @@ class Extensions {
  public:
   Extensions(const World& world, const Scheduler& scheduler);
 
-  /// The interface of exactly this version and layout. Otherwise null; `why_not` says so where another version or
-  /// layout is there.
+  /// Returns the interface of exactly this version and layout, or null. When only another version or layout is there,
+  /// `why_not` says so.
   void* find(const ExtensionId& id, std::string& why_not);
 
   Inspector& inspector() { return inspector_; }

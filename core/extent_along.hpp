@@ -7,9 +7,9 @@
 
 namespace muro {
 
-/// How far (m) a shape that stands at `pose` reaches along `direction` (unit), from the origin of the frame of both; 0
-/// or less where it is all on the other side. `corners`: those of the convex hull of a mesh, not scaled; a mesh without
-/// any counts as a point.
+/// Returns how far (m) a shape at `pose` extends along `direction` (unit) from the origin of the frame of both; 0 or
+/// less when it lies on the other side completely. `corners`: corners of the convex hull of a mesh, not scaled; a mesh
+/// without corners counts as a point.
 inline double extent_along(const Shape& shape, std::span<const Vec3> corners, const Pose& pose, const Vec3& direction) {
   const double middle = direction.dot(pose.position);
   const Vec3 in_shape = pose.orientation.conjugate() * direction;

@@ -7,7 +7,7 @@
 
 namespace muro {
 
-/// A 64-bit hash of bytes, eight at a time (multiply and rotate, finished with the mixer of SplitMix64).
+/// Returns a 64-bit hash of bytes, eight at a time (multiply and rotate, finished with the mixer of SplitMix64).
 inline std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t seed) {
   std::uint64_t h = seed ^ (size * 0x9E3779B97F4A7C15ull);
   const auto* p = static_cast<const unsigned char*>(data);

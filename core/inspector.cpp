@@ -5,7 +5,7 @@ namespace muro {
 
 namespace {
 
-/// Where the elements of a property lie now; without data where it has none yet.
+/// Returns where the elements of a property are now; without data when it has none yet.
 LiveProperty elements_of(const Slot& s) {
   LiveProperty p;
   p.multiplicity = s.multiplicity;
@@ -32,7 +32,7 @@ std::span<const LiveProperty> Inspector::properties(ObjectId object) noexcept {
   for (const PropertyStore::NamedSlot& n : store.properties(object)) {
     const Slot& s = store.slot(n.slot);
     LiveProperty p = elements_of(s);
-    if (!p.data && s.multiplicity != Multiplicity::list) continue;  // sums, and what has only been shared so far
+    if (!p.data && s.multiplicity != Multiplicity::list) continue;  // sums; properties only shared so far
     KeyInfo& key = keys_.emplace_back(store.key_of(s));
     key.name = n.key;
     p.key = &key;

@@ -11,7 +11,7 @@
 
 namespace muro {
 
-/// Shows a simulation to algorithms that are alone with it.
+/// Shows a simulation to algorithms that run alone.
 class Inspector final : public Inspection {
  public:
   Inspector(const World& world, const Scheduler& scheduler) : world_(world), scheduler_(scheduler) {}
@@ -24,7 +24,7 @@ class Inspector final : public Inspection {
   void stop() noexcept override { stopped_ = true; }
   bool is_stopping() const noexcept override { return stopped_ || (stop_ && stop_()); }
 
-  /// Who else may want the end of the run that now begins.
+  /// Sets a function that says whether something else wants to end the run that now begins.
   void set_stop(std::function<bool()> stop) { stop_ = std::move(stop); }
   bool stopped() const { return stopped_; }
 
@@ -32,7 +32,7 @@ class Inspector final : public Inspection {
   const World& world_;
   const Scheduler& scheduler_;
   std::vector<LiveProperty> properties_;
-  std::deque<KeyInfo> keys_;  ///< under the names that an object has for them
+  std::deque<KeyInfo> keys_;  ///< with the names that the object uses for them
   std::vector<LiveCost> costs_;
   std::function<bool()> stop_;
   bool stopped_ = false;

@@ -51,7 +51,7 @@ Instance::~Instance() {
   algorithm_->destroy();
 }
 
-/// The library is that of the plugin's own function.
+/// The library is the one that contains the plugin's own function.
 std::shared_ptr<const Callee> Instance::make_callee() const {
   Callee callee{.name = setup_.name, .use = setup_.use, .place = setup_.place};
   callee.runs_alone = (description().capabilities & Capability::runs_alone) != 0;
@@ -72,7 +72,7 @@ std::shared_ptr<const Callee> Instance::make_callee() const {
   return std::make_shared<const Callee>(std::move(callee));
 }
 
-/// Messages of the set-up name the robot where there are several and the algorithm has noted one.
+/// Messages of the set-up name the robot when there are several and the algorithm has noted one.
 void Instance::require(bool fine, const abi::ErrorText& error, const char* doing) const {
   if (fine) return;
   const RunningCall& call = running_call();
@@ -118,7 +118,7 @@ void Instance::finish() {
 void Instance::leave_out() {
   is_left_out_ = true;
   bound_.clear();
-  setup_.rate = Rate();  // on demand, where nobody reads what it writes
+  setup_.rate = Rate();  // on demand: it never runs, as nothing reads what it writes
 }
 
 bool Instance::on_handover(std::uint32_t item, abi::ErrorText& error) {
@@ -183,7 +183,7 @@ std::uint64_t Instance::random_key(std::uint32_t i) const noexcept {
 
 std::string_view Instance::resolve_path(std::string_view path) const noexcept {
   namespace fs = std::filesystem;
-  std::error_code deleted;  // the working directory may be gone; the path then stays as it is
+  std::error_code deleted;  // the working directory may not exist any more; the path then stays as it is
   const fs::path given(path), base = fs::absolute(setup_.folder.empty() ? "." : setup_.folder, deleted);
   return paths_.emplace_back((given.is_absolute() ? given : base / given).lexically_normal().string());
 }
@@ -196,7 +196,7 @@ Rows<FoundProperty> Instance::properties(ObjectId object) const noexcept {
     const bool is_sum = std::any_of(s.users.begin(), s.users.end(), [](const Slot::User& u) {
       return u.usage.access == Access::accumulate || u.usage.access == Access::read_sum;
     });
-    if (!s.place && !s.array && !is_sum) continue;  // what has only been shared so far
+    if (!s.place && !s.array && !is_sum) continue;  // properties that have only been shared so far
     if (key->name != n.key) {                       // shared with a property of another name
       aliases_.push_back(*key);
       aliases_.back().name = n.key;

@@ -18,7 +18,7 @@ constexpr Rank rank_of(const Description& d) {
 /// The place of an algorithm in an instant.
 constexpr int order_of(const Description& d) { return order_of(d.kind, rank_of(d)); }
 
-/// Parameters checked against a description, with memory for what they point to.
+/// Parameters checked against a description; owns the memory to which they point.
 class ParameterSet {
  public:
   /// Throws SetupError with every problem, each with the allowed values and the nearest name.
@@ -37,7 +37,7 @@ class ParameterSet {
   Parameters view_;
 };
 
-/// One instance of an algorithm: made by its plugin, connected to the world.
+/// An instance of an algorithm: created by its plugin and connected to the world.
 class Instance final : private Connector {
  public:
   Instance(const abi::AlgorithmEntry& entry, AlgorithmSetup setup, World& world, Host& host);
@@ -49,38 +49,38 @@ class Instance final : private Connector {
   const Description& description() const { return *entry_.description; }
   abi::AlgorithmInstance& algorithm() { return *algorithm_; }
   Accessor accessor() const { return accessor_; }
-  /// What messages about its calls say of it.
+  /// Names of the algorithm in messages about its calls.
   const std::shared_ptr<const Callee>& callee() const { return callee_; }
 
-  /// The rate of the sequence that it is in. [before connect]
+  /// Sets the rate to that of its sequence. [before connect]
   void set_rate(Rate rate) { setup_.rate = rate; }
-  /// Of each robot, by number: whether another motion moves it at the start, whose initial values count. [before
-  /// connect]
+  /// Sets, by robot number, whether another motion moves the robot at the start; the initial values of that motion then
+  /// count. [before connect]
   void set_inactive_at_start(std::vector<bool> inactive) { inactive_at_start_ = std::move(inactive); }
-  /// Throws SetupError with the algorithm's own words.
+  /// Throws SetupError with the algorithm's own message.
   void connect();
   void connect_by_name();
-  /// It takes no part in the run: it is never called again, and reads and writes nothing.
+  /// Excludes it from the run: it is never called again, and reads and writes nothing.
   void leave_out();
   bool is_left_out() const { return is_left_out_; }
   void start();
   void restored();
   void finish();
-  /// False: it cannot take the robot over, and `error` says who it is and why.
+  /// Returns false when it cannot take the robot over; `error` then names the algorithm and the reason.
   bool on_handover(std::uint32_t item, abi::ErrorText& error);
-  /// Slots that it reads and writes, for the scheduler.
+  /// Slots that it reads and slots that it writes, for the scheduler.
   std::vector<SlotId> reads() const;
   std::vector<SlotId> writes() const;
-  /// A property whose value points into others (SceneIndex) is read together with all that its writer reads: adds that.
+  /// Adds indirect reads: the reader of a property that points into others (SceneIndex) reads what its writer reads.
   void add_indirect_reads(const std::vector<const Instance*>& by_accessor);
-  /// Every property that is not a constant, once. Contributions to a sum do not exclude each other, but exclude who
-  /// reads the sum.
+  /// Every property that is not a constant, once. Contributions to a sum do not exclude each other, but they exclude
+  /// readers of the sum.
   std::vector<SlotAccess> accesses() const;
-  /// It needs this property too, to know when to run.
+  /// Adds a property that it has to read to know when to run.
   void add_read(SlotId slot) { bound_.push_back({slot, usage::read}); }
-  /// Paths of its parameters that it has resolved: files that it reads.
+  /// Paths in its parameters that it has resolved: files that it reads.
   const std::deque<std::string>& resolved_paths() const { return paths_; }
-  /// How a step is divided; one or more.
+  /// The phases of a step; one or more.
   std::vector<Phase> phases() const;
   /// Returns the interface that the algorithm offers, or null. [after connect]
   template <class Interface>
@@ -121,7 +121,7 @@ class Instance final : private Connector {
   World& world_;
   Host& host_;
   ParameterSet parameters_;
-  std::deque<ParameterSet> item_parameters_;  ///< one an item, when they differ
+  std::deque<ParameterSet> item_parameters_;  ///< one for each item, when they differ
   Accessor accessor_;
   std::shared_ptr<const Callee> callee_;
   abi::AlgorithmInstance* algorithm_ = nullptr;

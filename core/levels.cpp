@@ -11,7 +11,7 @@
 
 namespace muro {
 
-/// Steps those items of an instance whose robots it moves at present.
+/// Steps only those items of an instance whose robots it moves at present.
 class Levels::LevelFilter final : public abi::AlgorithmInstance {
  public:
   explicit LevelFilter(abi::AlgorithmInstance& filtered, std::vector<Phase> phases)
@@ -125,7 +125,7 @@ bool Levels::is_inactive_at_start(RobotId robot, std::uint32_t level) const {
   return r && r->first != level;
 }
 
-/// Those that the motion writes, each once, in rising order.
+/// Returns the motion traits that the motion writes, each once, in rising order.
 std::vector<SlotId> Levels::traits_of(const World& world, const Robot& robot, const Mover& mover) const {
   std::vector<SlotId> traits;
   for (const SlotId slot : mover.instance->writes()) {

@@ -14,7 +14,7 @@
 namespace muro {
 namespace {
 
-/// The items of `joining` join those of `all`; each keeps its name and its parameters.
+/// Adds the items of `joining` to those of `all`; each keeps its name and its parameters.
 void join(AlgorithmSetup& all, const AlgorithmSetup& joining) {
   all.item_setups.resize(all.items.size(), {all.name, all.place, all.parameters, all.parameter_places});
   all.items.insert(all.items.end(), joining.items.begin(), joining.items.end());
@@ -41,7 +41,7 @@ void join_world(AlgorithmSetup& world, const AlgorithmSetup& joining) {
   join(world, joining);
 }
 
-/// Setups of one group, of one name, are one instance as they stand.
+/// Setups of one group and one name become one instance as they are.
 void join_batch(AlgorithmSetup& all, const AlgorithmSetup& joining) {
   if (all.name == joining.name && all.item_setups.empty())
     all.items.insert(all.items.end(), joining.items.begin(), joining.items.end());
@@ -49,7 +49,7 @@ void join_batch(AlgorithmSetup& all, const AlgorithmSetup& joining) {
     join(all, joining);
 }
 
-/// Of robots of one group, which have one place in the scenario, one is told. `refused`: such places.
+/// Joins a world. Robots of one group have one place; its problem is reported once. `refused`: places with a problem.
 void join_world_told_once(AlgorithmSetup& world, const AlgorithmSetup& joining, std::set<std::string>& refused) {
   try {
     join_world(world, joining);
@@ -58,7 +58,7 @@ void join_world_told_once(AlgorithmSetup& world, const AlgorithmSetup& joining, 
   }
 }
 
-/// Of a kind whose results would mix, one algorithm serves an object, and one that serves the world serves all.
+/// Checks kinds whose results would mix: only one algorithm serves an object, and one that serves the world serves all.
 void check_single_roles(const std::vector<AlgorithmSetup>& setups, Registry& registry) {
   std::map<std::pair<Kind, ObjectId>, const AlgorithmSetup*> served;
   std::set<std::pair<const AlgorithmSetup*, const AlgorithmSetup*>> told;
@@ -87,7 +87,7 @@ void check_single_roles(const std::vector<AlgorithmSetup>& setups, Registry& reg
   if (!problems.empty()) throw SetupError(problems);
 }
 
-/// Takes setups one by one.
+/// Takes setups one after the other.
 class Merging {
  public:
   explicit Merging(Registry& registry) : registry_(registry) {}
@@ -122,10 +122,10 @@ class Merging {
   }
 
  private:
-  /// How an algorithm is used.
+  /// The way in which an algorithm is used.
   struct Use {
     bool is_shared, is_of_world, is_of_any_group;
-    std::string key;  ///< the same of all that may share an instance
+    std::string key;  ///< equal for all uses that may share an instance
   };
 
   static ParameterInput world_of(const AlgorithmSetup& s) {
@@ -155,7 +155,7 @@ class Merging {
         m.subsystem != s.subsystem || m.is_optional != s.is_optional)
       return false;
     if (m.name == s.name) return true;
-    // of several motions of one robot each is an instance; check_single_roles() looks whether it may have them
+    // each motion of a robot is an instance; check_single_roles() checks whether it may have several
     return use.is_of_any_group && m.items.front().level == s.items.front().level &&
            std::none_of(s.items.begin(), s.items.end(), [&](const Item& item) {
              return moved_.contains({number, item.robot});
@@ -165,9 +165,9 @@ class Merging {
   Registry& registry_;
   MergedSetups all_;
   CollectedProblems problems_;
-  std::set<std::string> refused_;                             ///< places of what worlds refuse
+  std::set<std::string> refused_;                             ///< places of the setups that worlds refuse
   std::map<std::string, std::vector<std::size_t>> alike_;     ///< merged, by Use::key
-  std::set<std::pair<std::size_t, const RobotView*>> moved_;  ///< by which of merged
+  std::set<std::pair<std::size_t, const RobotView*>> moved_;  ///< robots that a merged setup moves, by its index
 };
 
 }  // namespace

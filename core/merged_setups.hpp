@@ -8,16 +8,16 @@
 
 namespace muro {
 
-/// Uses of algorithms, where those that share an instance are one: robots of one world (Capability::world), and items
-/// that are alike but for what they serve (Capability::batched). Of motions, which move robots of one model side by
-/// side, those of several groups are one, too.
+/// Uses of algorithms after merging. Uses that share an instance are one: robots of one world (Capability::world), and
+/// items that differ only in what they serve (Capability::batched). Motions that move robots of one model are one use
+/// even when they belong to several groups.
 struct MergedSetups {
   std::vector<AlgorithmSetup> merged;
-  std::vector<std::size_t> merged_of_setup;  ///< for each of those that were given, its number in `merged`
+  std::vector<std::size_t> merged_of_setup;  ///< index in `merged` of each given use
 };
 
-/// `sequences`: of numbers of setups; groups may have theirs in different orders. Throws SetupError where uses exclude
-/// each other.
+/// Merges `setups`. `sequences`: lists of indices of setups; groups may have theirs in different orders. Throws
+/// SetupError when uses exclude each other.
 MergedSetups merge(const std::vector<AlgorithmSetup>& setups, const std::vector<std::vector<std::size_t>>& sequences,
                    Registry& registry);
 

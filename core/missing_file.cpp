@@ -11,7 +11,7 @@ namespace muro {
 namespace fs = std::filesystem;
 
 std::string nearest_file(const std::string& path) {
-  constexpr std::size_t most = 2000;  // comparing names takes its time
+  constexpr std::size_t most = 2000;  // comparing names takes time
   std::error_code code;
   std::vector<std::string> names;
   const fs::path folder = fs::absolute(path, code).parent_path();

@@ -44,7 +44,7 @@ void OutputRegistry::file(std::string_view path) noexcept {
 
 void OutputRegistry::series(std::string_view begin, std::string_view end) noexcept {
   const fs::path first(begin);
-  // the folder may be made later
+  // the folder may be created later
   const fs::path folder = first.parent_path().empty() ? fs::path(".") : first.parent_path();
   outputs_.push_back({owner_, fmt::format("{}#{}", begin, end), place_of(folder.string()), first.filename().string(),
                       std::string(end), true});
@@ -66,7 +66,7 @@ bool OutputRegistry::is_member(const Output& series, const std::string& target) 
   return number.find_first_not_of("0123456789.") == std::string::npos;
 }
 
-/// Whether a file would have the name of the folder of a series, or of one above it.
+/// Whether a file would have the name of the folder of a series, or of a folder above it.
 bool OutputRegistry::is_folder_of(const Output& file, const Output& series) {
   return (series.place.target + "/").starts_with(file.place.target + "/");
 }
@@ -78,7 +78,7 @@ bool OutputRegistry::are_one(const Output& a, const Output& b) {
   return same_place(a.place, b.place) && !a.place.is_device;
 }
 
-/// Whether `a` is kept under the name of `b` until it is complete, see WholeFile.
+/// Whether `b` has the name under which `a` is kept until it is complete, see WholeFile.
 bool OutputRegistry::is_part_of(const Output& a, const Output& b) {
   if (a.is_series || b.is_series) return false;
   fs::path with_extension(a.place.target);
@@ -108,7 +108,7 @@ void OutputRegistry::check_folder(const Output& output, std::vector<std::string>
   if (access(folder.c_str(), W_OK | X_OK) != 0) return cannot(errno);
 }
 
-/// Begins the file and removes it again, since rights alone do not tell whether it can be made.
+/// Creates the file and removes it again, since access rights alone do not say whether it can be created.
 void OutputRegistry::try_to_write(const Output& output, std::vector<std::string>& problems) {
   if (output.is_series || (output.place.exists && !output.place.is_regular)) return;
   try {

@@ -11,36 +11,36 @@
 
 namespace muro {
 
-/// Files that cannot be written, or must not be.
+/// Files that cannot be written, or must not be written.
 class OutputError final : public SetupError {
  public:
   using SetupError::SetupError;
 };
 
-/// What a simulation reads and writes, to be checked before it runs. Two names are one file when they lead to it by
-/// whatever path or link.
+/// Files that a simulation reads and writes, to be checked before it runs. Two names are one file when they lead to it
+/// by any path or link.
 class OutputRegistry final : public Outputs {
  public:
-  /// Who names files from now on, as messages call it: "log (recorder.csv, urban.yaml:7:3)", "--report".
+  /// Sets the owner of the files that are named from now on, as in messages: "log (recorder.csv, urban.yaml:7:3)",
+  /// "--report".
   void set_owner(std::string owner) { owner_ = std::move(owner); }
   void file(std::string_view path) noexcept override;
   void series(std::string_view begin, std::string_view end) noexcept override;
-  /// A file that is read, told once. `what`: "the scenario", "which log reads". Of the present owner, which may write
-  /// it.
+  /// Adds a file that the present owner reads, and may write. A path counts once. `what`: "the scenario", "which log
+  /// reads".
   void add_input(const std::string& path, const std::string& what);
 
   /// Whether anything is written.
   bool empty() const { return outputs_.empty(); }
-  /// Throws OutputError with all mistakes: two outputs in one file, an output in place of an input, a folder that is
-  /// not there.
+  /// Throws OutputError with all mistakes: two outputs in one file, an output in place of an input, a missing folder.
   void check() const;
 
  private:
-  /// Where a name leads.
+  /// The file to which a name leads.
   struct Place {
     std::string target;       ///< without links
-    std::uint64_t number[2];  ///< device and inode of what is there
-    int error = 0;            ///< why it cannot be looked at (errno); 0: it can, or is not there
+    std::uint64_t number[2];  ///< device and inode of the file there
+    int error = 0;            ///< why it cannot be inspected (errno); 0: it can, or it does not exist
     bool exists = false;
     bool is_folder = false;
     bool is_device = false;  ///< a character device, which takes several outputs
@@ -48,9 +48,9 @@ class OutputRegistry final : public Outputs {
   };
   struct Output {
     std::string owner;
-    std::string path;        ///< as given; of a series with # for the number
-    Place place;             ///< of a series that of its folder
-    std::string begin, end;  ///< of the names of a series, in its folder
+    std::string path;        ///< as given; for a series with # in place of the number
+    Place place;             ///< for a series the place of its folder
+    std::string begin, end;  ///< begin and end of the file names of a series, in its folder
     bool is_series = false;
   };
   struct Input {

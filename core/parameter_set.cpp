@@ -13,7 +13,7 @@ namespace muro {
 
 namespace {
 
-/// Of parameters without a range of their own: what is beyond is a mistake, and no index is made of it.
+/// Limit for parameters without a range of their own: a greater number is a mistake, and no index is made of it.
 constexpr double largest_number = 1e15;
 
 std::string shown(double x) { return fmt::format("{:g}", x); }
@@ -70,7 +70,7 @@ const double* number_in(const ParameterInput& input, double& storage) {
   return nullptr;
 }
 
-/// The choice that a file means by a word which YAML takes for true or false: `off` among `on` and `off`.
+/// Returns the choice that a file means by a word which YAML reads as true or false: `off` among `on` and `off`.
 const std::string_view* choice_of(const Parameter& p, bool given) {
   constexpr std::string_view words[2][3] = {{"off", "no", "false"}, {"on", "yes", "true"}};
   for (const std::string_view& choice : p.choices)

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view library_suffix = ".so", description_suffix = ".muro.json";
 
-/// `path` with the end `from` replaced by `to`.
+/// Returns `path` with the end `from` replaced by `to`.
 std::string with_suffix(std::string path, std::string_view from, std::string_view to) {
   path.resize(path.size() - from.size());
   return path.append(to);
@@ -31,7 +31,7 @@ std::string description_of(const std::string& library) {
   return with_suffix(library, library_suffix, description_suffix);
 }
 
-/// The names of the properties that a list of uses contains; none where there is no list.
+/// Returns the names of the properties in a list of uses; none when there is no list.
 std::vector<std::string> keys_in(const Json& entry, const char* list) {
   std::vector<std::string> keys;
   for (const Json& use : entry.value(list, Json::array())) keys.push_back(use.at("key"));
@@ -64,7 +64,7 @@ CatalogEntry entry_from(const Json& json, const Json& plugin, const std::string&
   return entry;
 }
 
-/// Why the description beside a library cannot be read, before anybody opens it; empty: it may be.
+/// Returns why the description beside a library cannot be read, without opening it; empty: it can.
 std::string problem_with(const std::string& library) {
   const fs::path description = description_of(library);
   const std::string name = description.filename().string();

@@ -9,25 +9,25 @@
 
 namespace muro {
 
-/// An algorithm or reader of a plugin, from its description file: no code of the plugin has run.
+/// An algorithm or reader of a plugin, as its description file says; no code of the plugin has run.
 struct CatalogEntry {
   std::string id;    ///< "motion.point"
   std::string kind;  ///< "motion", "reader"
   std::string version;
   std::string summary;
   std::vector<std::string> reads, writes;  ///< property names
-  std::vector<std::string> extensions;     ///< readers
-  std::optional<Features> features;        ///< of a motion; none: its plugin does not say
+  std::vector<std::string> extensions;     ///< file name extensions, for readers
+  std::optional<Features> features;        ///< for a motion; empty: its plugin does not say
   std::string plugin;                      ///< name of the plugin
   std::string library;                     ///< absolute path of the .so
   std::string description;                 ///< absolute path of the .muro.json
 };
 
-/// What the plugin of a library offers, from the description beside it. Throws SetupError, which says what is wrong
-/// with the description, without the path of the library.
+/// Returns the algorithms and readers that a plugin offers, from the description beside its library. Throws SetupError
+/// that says what is wrong with the description, without the path of the library.
 std::vector<CatalogEntry> read_description_of(const std::string& library);
 
-/// A file that looks like a plugin, or a part of one, and cannot be used.
+/// A file that looks like a plugin, or like a part of one, and cannot be used.
 struct PassedOver {
   std::string file;    ///< absolute path
   std::string reason;  ///< "it has no description NAME.muro.json beside it; ..."

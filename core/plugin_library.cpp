@@ -45,7 +45,7 @@ std::string difference(const abi::Stamp& ours, const abi::Stamp& theirs) {
 
 namespace {
 
-/// The system's words in the loader's text, without the path, which the message names already.
+/// Returns the system's words in the loader's text, without the path, which the message names already.
 std::string reason_of(std::string text, const std::string& path) {
   const std::string before = "dlerror system message: ";
   if (const std::size_t at = text.find(before); at != std::string::npos) {
@@ -57,7 +57,7 @@ std::string reason_of(std::string text, const std::string& path) {
   return first == std::string::npos ? text : text.substr(first);
 }
 
-/// Throws SetupError when the table is none that this muro can use. Reads nothing behind what it has found right.
+/// Throws SetupError unless this muro can use the table. Reads nothing beyond the part that it has found valid.
 void check_table(const abi::PluginTable& table, const std::string& path) {
   constexpr const char* again = "build it again with muro_add_plugin() of this muro";
   static constexpr abi::Stamp ours = abi::make_stamp();
@@ -92,7 +92,7 @@ const abi::PluginTable& load_plugin(const std::string& path) {
   const Callee callee{.name = "plugin " + path, .library = path};
   const CallScope scope(callee, "load");  // constructors of the library run
   dll::shared_library library;
-  // an absolute path needs no working directory, which may be gone
+  // an absolute path needs no working directory, which may not exist any more
   const boost::dll::fs::path given = path, absolute = given.is_absolute() ? given : boost::dll::fs::absolute(given);
   if (const std::string missing = missing_part_of_library(absolute.string()); !missing.empty())
     throw SetupError(fmt::format("plugin {} cannot be loaded: {}", path, missing));

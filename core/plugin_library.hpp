@@ -7,11 +7,11 @@
 
 namespace muro {
 
-/// Loads the shared library `path` and returns its table, which stays valid until the program ends.
-/// Throws SetupError with the reason when it is no plugin, or one that must not be used.
+/// Loads the shared library `path` and returns its table, which stays valid until the program ends. Throws SetupError
+/// with the reason when it is no plugin, or a plugin that must not be used.
 const abi::PluginTable& load_plugin(const std::string& path);
 
-/// The first field in which two stamps differ, in words; "" when a plugin with `theirs` may be used.
+/// Returns the first field in which two stamps differ, in words; "" when a plugin with `theirs` may be used.
 std::string difference(const abi::Stamp& ours, const abi::Stamp& theirs);
 
 }  // namespace muro

@@ -7,8 +7,8 @@
 
 namespace muro {
 
-/// The box around points (m), first scaled along their axes, that stand at `pose`; around its position where there are
-/// none.
+/// Returns the box around points (m) at `pose`, after scaling along their axes. Without points it is a box of size 0 at
+/// the position of `pose`.
 inline Aabb bounds_of_points(std::span<const Vec3> points, const Vec3& scale, const Pose& pose) {
   Aabb box;
   for (const Vec3& p : points) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The check of a property store before a run: who writes, reads and adds to each property.
+// The check of a property store before a run: which algorithms write, read and add to each property.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace muro {
 
-/// The property that two algorithms write, and how many more they both write: one mistake is told once.
+/// A property that two algorithms write, and the number of others that they both write: one mistake is reported once.
 struct PropertyStore::TwoWriters {
   Accessor first, second;
   std::string property;
@@ -71,7 +71,7 @@ void PropertyStore::check(const std::function<std::string(std::string_view)>& wr
     all.push_back(fmt::format("{} has two writers: {} and {}; only one algorithm may write a property{}", w.property,
                               who(w.first), who(w.second),
                               w.more == 0 ? "" : fmt::format(" (the same holds for {} more)", w.more)));
-  std::vector<std::string> problems;  // each once: a mistake in a template stands in all of its robots
+  std::vector<std::string> problems;  // each once: a mistake in a template is repeated in all of its robots
   for (std::string& p : all)
     if (std::find(problems.begin(), problems.end(), p) == problems.end()) problems.push_back(std::move(p));
   if (!problems.empty()) throw SetupError(problems);

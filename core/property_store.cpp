@@ -101,7 +101,7 @@ std::uint32_t PropertyStore::column_of(Accessor accessor, const KeyInfo& given) 
         key.name, name_of(known.role), name_of(key.role), accessors));
   else
     return it->second;
-  columns_.emplace_back(key);  // memory of the right size, so that set-up can go on to the next problem
+  columns_.emplace_back(key);  // memory of the right size, so that the set-up can go on to the next problem
   column_accessor_.push_back(accessor);
   return std::uint32_t(columns_.size() - 1);
 }
@@ -289,7 +289,7 @@ void PropertyStore::let_alternate(const std::vector<ObjectId>& objects, const st
 void* PropertyStore::state_block(Accessor accessor, ObjectId object, std::string_view name, std::uint32_t size) {
   const std::string& key_name = texts_.emplace_back("state." + std::string(name));
   const KeyInfo key{key_name, "1", &value_type<std::uint8_t>, Role::state, "state that only its owner understands"};
-  const std::uint32_t rounded = (std::max(size, 1u) + 63) / 64 * 64;  // so that each block begins aligned for any type
+  const std::uint32_t rounded = (std::max(size, 1u) + 63) / 64 * 64;  // so that each block is aligned for any type
   const auto* array = static_cast<const ArrayHeader*>(
       bind(accessor, object, key, usage::variable, Multiplicity::array, rounded, nullptr));
   return array->data;

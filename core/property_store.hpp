@@ -14,7 +14,7 @@
 
 namespace muro {
 
-/// Who uses properties: an algorithm instance, or the set-up itself.
+/// The user of properties: an algorithm instance, or the set-up itself.
 using Accessor = std::uint32_t;
 inline constexpr Accessor setup_accessor = 0;
 
@@ -28,7 +28,7 @@ struct Slot {
     Usage usage;
   };
 
-  ObjectId object = no_object;  ///< through which it was created
+  ObjectId object = no_object;  ///< the object through which it was created
   std::uint32_t column = 0;
   Class kind = Class::unknown;
   Multiplicity multiplicity = Multiplicity::single;
@@ -37,18 +37,18 @@ struct Slot {
   void* place = nullptr;  ///< the value, the first element, or the ListHeader
   ArrayHeader* array = nullptr;
   SumHeader* sum = nullptr;
-  std::vector<void*> contributions;  ///< to a sum, in registration order
+  std::vector<void*> contributions;  ///< contributions to a sum, in registration order
   std::vector<User> users;
 
   bool used_as(Usage usage) const;
-  /// The one that writes it, if there is one.
+  /// Returns the user that writes it, or null.
   const User* writer() const;
 };
 
 /// All properties of all objects.
 ///
-/// Memory of a property is set aside when it is first mentioned and never moves, so that handles can be
-/// given out while algorithms connect, in any order. Mistakes are collected, and `check` reports them.
+/// The memory of a property is reserved when it is first mentioned and never moves, so that algorithms can get handles
+/// while they connect, in any order. Mistakes are collected, and `check` reports them.
 class PropertyStore {
  public:
   PropertyStore();
@@ -57,40 +57,40 @@ class PropertyStore {
   PropertyStore& operator=(const PropertyStore&) = delete;
 
   void add_object(std::string name);
-  /// The memory partition of each object, by id; 0 for those that come later. Memory that is reserved from now on lies
-  /// a page apart between partitions.
+  /// Sets the memory partition of each object, by id; 0 for objects that come later. Memory that is reserved from now
+  /// on lies a page apart between partitions.
   void set_partitions(std::vector<std::uint32_t> partitions) { partitions_ = std::move(partitions); }
   const std::string& object_name(ObjectId id) const { return names_[index_of(id)]; }
   Accessor add_accessor(std::string name);
   const std::string& accessor_name(Accessor p) const { return accessors_[p]; }
 
-  /// A constant: `count` elements, or single_value. A second value for the same property replaces the first.
+  /// Sets a constant. `count`: elements, or single_value. A second value for the same property replaces the first.
   void set_constant(ObjectId object, const KeyInfo& key, const void* data, std::uint32_t count);
-  /// The value of a constant, or no data.
+  /// Returns the value of a constant, or no data.
   ArrayHeader constant(ObjectId object, const KeyInfo& key) const;
 
-  /// Declares two properties equal: one place in memory. Allowed before or after they exist, until an
+  /// Declares two properties equal: they have one place in memory. Allowed before or after they exist, until an
   /// algorithm holds a handle to both.
   void share(ObjectId a, const KeyInfo& key_a, ObjectId b, const KeyInfo& key_b);
 
-  /// A place for `accessor`; see Connector for the meaning of the arguments. Never fails: a request that
-  /// clashes gets a place of its own and a problem.
-  /// `inactive`: the accessor does not write at the start, so its initial value counts only where nobody has given one.
+  /// Returns a place for `accessor`; see Connector for the arguments. Never fails: a request that clashes gets a place
+  /// of its own and adds a problem. `inactive`: the accessor does not write at the start, so its initial value counts
+  /// only when there is no other.
   void* bind(Accessor accessor, ObjectId object, const KeyInfo& key, Usage usage, Multiplicity multiplicity,
              std::uint32_t count, const void* initial, bool inactive = false);
-  /// These accessors may write the same properties of these objects, one at a time.
+  /// Lets these accessors write the same properties of these objects, one at a time.
   void let_alternate(const std::vector<ObjectId>& objects, const std::vector<Accessor>& accessors);
-  /// Bytes of state under a name of their own.
+  /// Returns bytes of state that have a name of their own.
   void* state_block(Accessor accessor, ObjectId object, std::string_view name, std::uint32_t size);
 
-  /// Throws SetupError with every problem found. `writers_of(key)` names algorithms that write a key.
+  /// Throws SetupError with every problem found. `writers_of(key)` returns the names of algorithms that write a key.
   void check(const std::function<std::string(std::string_view)>& writers_of) const;
 
-  /// The slot of a property, or null.
+  /// Returns the slot of a property, or null.
   const Slot* find(ObjectId object, std::string_view key) const;
   const Slot& slot(SlotId id) const { return slots_[id]; }
   const KeyInfo& key_of(const Slot& s) const { return columns_[s.column].key(); }
-  /// All properties of an object by the names under which it has them, in order of creation.
+  /// All properties of an object with the names that the object uses for them, in order of creation.
   struct NamedSlot {
     std::string_view key;
     SlotId slot;
@@ -100,7 +100,7 @@ class PropertyStore {
   /// The slots that `accessor` has bound, in the order of binding.
   const std::vector<SlotId>& slots_of(Accessor accessor) const { return bound_[accessor]; }
 
-  /// The whole memory of properties, byte by byte; transient values are left out.
+  /// A copy of the memory of all properties, without transient values.
   struct Image {
     std::vector<SparseBytes> blocks;
     std::vector<std::vector<std::byte>> lists;
@@ -109,7 +109,7 @@ class PropertyStore {
   void load(const Image& image);
   /// Sets the value of a property to zero; empties a list.
   void clear(SlotId id);
-  /// Hash of the variable properties of one object; does not depend on the order of declarations.
+  /// Returns the hash of the variable properties of one object; it does not depend on the order of declarations.
   std::uint64_t hash(ObjectId object) const;
 
  private:
@@ -133,9 +133,9 @@ class PropertyStore {
                   std::vector<TwoWriters>& two_writers, std::vector<std::string>& problems) const;
 
   std::vector<std::string> names_;
-  std::vector<std::uint32_t> partitions_;  ///< by object
+  std::vector<std::uint32_t> partitions_;  ///< indexed by object
   std::vector<std::string> accessors_;
-  std::vector<Accessor> column_accessor_;  ///< who declared the key first
+  std::vector<Accessor> column_accessor_;  ///< the accessor that declared the key first
   std::deque<Column> columns_;
   std::map<std::string, std::uint32_t, std::less<>> column_index_;
   std::deque<std::string> texts_;  ///< names of state blocks

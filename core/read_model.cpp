@@ -16,7 +16,7 @@ namespace {
 
 using Read = std::function<bool(abi::ReaderInstance&, const std::string& path, abi::ErrorText&)>;
 
-/// `what` names the file in messages: "model rover.urdf".
+/// Reads a file. `what` names the file in messages: "model rover.urdf".
 void read_file(Registry& registry, const std::string& path, const std::string& what, const Read& read) {
   const CLocale locale;
   std::error_code code;

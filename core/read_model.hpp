@@ -9,10 +9,10 @@
 
 namespace muro {
 
-/// Reads a file with the reader of the registry for its type. Problems of severity error make a SetupError; the others
-/// are kept in what is read. `packages`: folders of packages that the user has named. [any thread]
+/// Reads a file with the registry's reader for its type. Problems of severity error cause a SetupError; the result
+/// keeps the others. `packages`: folders of packages that the user has named. [any thread]
 RobotTree read_model(Registry& registry, const std::string& path, std::span<const PackageFolder> packages = {});
-/// The same for a file that describes a world. Errors in one of its models are left in the model's tree.
+/// Reads a file that describes a world, in the same way. Errors in one of its models are kept in the model's tree.
 WorldModel read_world(Registry& registry, const std::string& path, std::span<const PackageFolder> packages = {});
 
 }  // namespace muro

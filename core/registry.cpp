@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether two paths lead to one file, or to files with the same bytes: a copy of a plugin is no rival of it.
+/// Whether two paths lead to one file, or to files with the same bytes: a copy of a plugin does not compete with it.
 bool is_same_library(const std::string& a, const std::string& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error)) return true;
@@ -45,7 +45,7 @@ bool reads(const CatalogEntry& entry, const std::string& extension) {
   return std::find(entry.extensions.begin(), entry.extensions.end(), extension) != entry.extensions.end();
 }
 
-/// What a library offers under a name or for a type of files. Throws SetupError.
+/// Returns what a library offers under a name or for a type of files. Throws SetupError.
 CatalogEntry entry_of(const std::string& library, const std::string& name) {
   std::error_code none;
   if (!fs::exists(library, none)) throw SetupError("there is no such file");
@@ -59,7 +59,7 @@ CatalogEntry entry_of(const std::string& library, const std::string& name) {
   throw SetupError(fmt::format("it offers {}", fmt::join(offered, ", ")));
 }
 
-/// What a user does about several plugins for one name.
+/// Returns what a user can do about several plugins for one name.
 std::string how_to_choose(const std::string& name, const std::string& library) {
   return fmt::format("remove the others, or choose one in the scenario: `plugins: {{{}: {}}}`", name, library);
 }
@@ -84,7 +84,7 @@ std::vector<std::string> Registry::search_path(const std::vector<std::string>& e
 
 Registry::Registry(const std::vector<std::string>& folders) {
   for (const std::string& f : folders) {
-    std::error_code code;  // such as that of a working directory that is gone
+    std::error_code code;  // such as that of a missing working directory
     const fs::path from_root = fs::absolute(f, code), resolved = fs::weakly_canonical(from_root, code);
     const std::string absolute = code ? f : resolved.string();
     if (std::any_of(folders_.begin(), folders_.end(), [&](const PluginFolder& k) { return k.path == absolute; }))
@@ -132,7 +132,7 @@ void Registry::choose(const std::map<std::string, PluginChoice>& choices) {
   if (!problems.empty()) throw SetupError(problems);
 }
 
-/// Where plugins were looked for, and what was passed over there.
+/// Returns the folders in which plugins were searched, and what was passed over there.
 std::string Registry::searched() const {
   constexpr std::size_t most = 5;
   std::string text = "searched: ";

@@ -234,7 +234,7 @@ void RobotTree::close() {
   check_mass();
 }
 
-/// A robot with less than the least mass of a body could be moved by no force without an infinite acceleration.
+/// Reports a robot with less than the least mass of a body: any force would give it an infinite acceleration.
 void RobotTree::check_mass() {
   double mass = 0;
   for (const Component& component : components_)
@@ -302,7 +302,7 @@ bool RobotTree::set_material(std::string_view name, const Material& material) {
   const auto replace = [&](std::byte* place) {
     Shape shape;
     std::memcpy(static_cast<void*>(&shape), place, sizeof shape);
-    if (shape.material_source == MaterialSource::file) shape.color.setOnes();  // under a picture
+    if (shape.material_source == MaterialSource::file) shape.color.setOnes();  // white under a picture
     shape.material_source = MaterialSource::model;
     shape.color = material.color.value_or(shape.color);
     if (!material.texture.empty()) shape.texture = texts_.intern(material.texture);

@@ -14,15 +14,15 @@
 
 namespace muro {
 
-/// The tree of a robot model, as built block by block, and flattened for traversal. A model is read
-/// once and makes any number of robots (World::add_robot).
+/// The tree of a robot model: built block by block, and flattened for traversal. A model is read once and makes any
+/// number of robots (World::add_robot).
 class RobotTree final : public RobotBuilder, public PackageFolders {
  public:
   /// One block, in the order of building (depth first).
   struct Node {
     NodeKind kind;
     std::string name;          ///< base, joints and bodies
-    std::int32_t parent = -1;  ///< index of the block before it
+    std::int32_t parent = -1;  ///< index of the preceding block of its branch
   };
   /// A constant of a component.
   struct Constant {
@@ -30,25 +30,25 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
     std::uint32_t count;  ///< elements of an array, or single_value
     std::vector<std::byte> data;
   };
-  /// A body or joint: what becomes an object.
+  /// A body or joint; it becomes an object.
   struct Component {
     std::string name;
     std::vector<Constant> constants;
-    std::vector<TextId> visual_materials;  ///< names, for each of `visual.shapes`; fewer: the others have none
+    std::vector<TextId> visual_materials;  ///< names, for each of `visual.shapes`; shapes beyond its end have none
   };
-  /// What replaces a material.
+  /// A replacement for a material.
   struct Material {
     std::optional<Eigen::Vector4d> color;  ///< red, green, blue, alpha, 0..1
-    std::string texture;                   ///< path of a picture; empty: as it was
+    std::string texture;                   ///< path of a picture; empty: unchanged
   };
-  /// A link whose objects are still indices of components.
+  /// A link that still has indices of components instead of objects.
   struct FlatLink {
     std::int32_t body = -1;
     std::int32_t joint = -1;  ///< -1: none
     Link link;                ///< without object ids
     std::string mimic_leader;
   };
-  /// A subsystem that the model brings, as a scenario writes it.
+  /// A subsystem that the model contains, written as in a scenario.
   struct Subsystem {
     std::string text;
     int line = 0, column = 0;  ///< in the model's file, from 1; 0: unknown
@@ -73,10 +73,10 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
 
   void* find_extension(const ExtensionId& id) noexcept override;
   std::span<const PackageFolder> package_folders() const noexcept override { return packages_; }
-  /// For the reader that builds it; must outlive that.
+  /// Sets the folders for the reader that builds the tree; they must outlive the reader.
   void set_packages(std::span<const PackageFolder> packages) { packages_ = packages; }
 
-  /// Closes the tree: names what is missing, resolves mimics. Call once after building.
+  /// Closes the tree: adds missing bodies, resolves mimics, reports mistakes. Call once after building.
   void close();
 
   const std::vector<Node>& nodes() const { return nodes_; }
@@ -87,22 +87,21 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
   const std::vector<Subsystem>& subsystems() const { return subsystems_; }
   bool usable() const;
 
-  /// The corners (m) of the convex hull of a mesh file; empty: its mesh counts as a point.
+  /// Returns the corners (m) of the convex hull of a mesh file; empty: the mesh counts as a point.
   using CornersOfMesh = std::function<std::span<const Vec3>(const std::string& path)>;
-  /// Height (m) of the base above the lowest point of the robot's collision shapes. `positions`: of the joint of each
-  /// link (rad or m); none: all at 0.
+  /// Height (m) of the base above the lowest point of the robot's collision shapes. `positions`: position of the joint
+  /// of each link (rad or m); empty: all at 0.
   double standing_height(std::span<const double> positions = {}, const CornersOfMesh& corners_of_mesh = {}) const;
   /// Radius (m) of the vertical cylinder about the base's origin that holds all collision shapes.
   double footprint_radius(std::span<const double> positions = {}, const CornersOfMesh& corners_of_mesh = {}) const;
   bool has_collision_meshes() const;
-  /// Of the joint of a link, in place of those that it was built with. They are within their ranges, and the link has a
-  /// joint.
+  /// Replaces the limits of the joint of a link. They must be within their ranges, and the link must have a joint.
   void set_limits(std::size_t link, const JointLimits& limits);
-  /// All names of materials that visual shapes have, sorted.
+  /// Names of all materials of visual shapes, sorted.
   std::vector<std::string> material_names() const;
-  /// Gives all visual shapes whose material has this name what `material` states. False when there is none.
+  /// Replaces the material of all visual shapes whose material has this name. Returns false when there is none.
   bool set_material(std::string_view name, const Material& material);
-  /// `is_lost` is asked for each, with the name of its body.
+  /// Removes the shapes for which `is_lost` returns true; `body`: name of the shape's body.
   void remove_collision_shapes(const std::function<bool(const std::string& body, const Shape& shape)>& is_lost);
 
  private:
@@ -121,10 +120,10 @@ class RobotTree final : public RobotBuilder, public PackageFolders {
   struct Cursor {
     std::int32_t node = -1;
     std::int32_t link = -1;
-    Pose since;            ///< from that link to here
-    bool unnamed = false;  ///< the link's joint has no body yet, and nothing lies between
-    int branches = 0;      ///< of a fork: how many are closed
-    bool closed = false;   ///< behind a fork with two closed branches: nothing may follow
+    Pose since;            ///< pose relative to that link
+    bool unnamed = false;  ///< the link's joint has no body yet, and is the last block
+    int branches = 0;      ///< number of closed branches of a fork
+    bool closed = false;   ///< after a fork with two closed branches: nothing may follow
   };
   Cursor at_;
   std::vector<Cursor> forks_;

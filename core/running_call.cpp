@@ -10,16 +10,16 @@ namespace muro {
 
 namespace {
 
-/// Those of all threads.
+/// The calls of all threads.
 class CallsOfThreads {
  public:
   static RunningCall* first() { return first_.load(); }
-  /// One that a thread has left behind, or a new one.
+  /// Returns a call that a thread has left behind, or a new one.
   static RunningCall* acquire() {
     const auto number = std::uint64_t(syscall(SYS_gettid));
     for (RunningCall* c = first(); c; c = c->next.load())
       if (std::uint64_t none = 0; c->thread.compare_exchange_strong(none, number)) return c;
-    auto* made = new RunningCall;  // never freed: a signal handler may look at it at any time
+    auto* made = new RunningCall;  // never freed: a signal handler may read it at any time
     made->thread = number;
     RunningCall* next = first();
     do made->next = next;
@@ -39,12 +39,12 @@ T now(const std::atomic<T>& value) {
   return value.load(std::memory_order_relaxed);
 }
 
-/// Gives a thread's own back at the thread's end.
+/// Releases the call of a thread at the thread's end.
 class CallOfThread {
  public:
   CallOfThread() { CallsOfThreads::of_this_one = CallsOfThreads::acquire(); }
   ~CallOfThread() {
-    if (now(CallsOfThreads::of_this_one->callee)) return;  // exit() within a call: whoever looks at it next may say so
+    if (now(CallsOfThreads::of_this_one->callee)) return;  // exit() within a call: its readers may report it
     CallsOfThreads::of_this_one->thread = 0;
     CallsOfThreads::of_this_one = nullptr;
   }
@@ -63,8 +63,8 @@ bool is_named_in(std::string_view message, std::string_view name) {
   return false;
 }
 
-/// The one item that the call is busy with, where that is known; of an algorithm that several subsystems share also the
-/// first one that a message names.
+/// Returns the item that the call works on, when it is known. For an algorithm that several subsystems share, it is
+/// else the first item that a message names.
 const Callee::OfItem* item_of(const Callee& callee, const RunningCall& call, std::string_view told) {
   const std::uint32_t noted = now(call.note.item), begin = now(call.begin);
   if (noted < callee.items.size()) return &callee.items[noted];

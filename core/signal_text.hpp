@@ -6,14 +6,14 @@
 
 namespace muro {
 
-/// A text that is put together without memory from the heap, locks or locales: what a signal handler may do. What does
-/// not fit is left out.
+/// A text that is built without memory from the heap, locks or locales, so that signal handlers may use it. Text that
+/// does not fit is left out.
 class SignalText {
  public:
   void add(std::string_view text) {
     for (const char c : text) put(c);
   }
-  /// A name from outside: control characters in it are question marks, and a long one is cut.
+  /// Adds a name from outside: control characters become question marks, and a long name is cut.
   void add_name(std::string_view name) {
     constexpr std::size_t longest = 1024;
     for (const char c : name.substr(0, longest)) put(static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c);
@@ -25,7 +25,7 @@ class SignalText {
     for (; number > 0 || n < digits; number /= base) reversed[n++] = "0123456789abcdef"[number % base];
     while (n > 0) put(reversed[--n]);
   }
-  /// Nanoseconds as seconds with six decimals.
+  /// Adds nanoseconds as seconds with six decimals.
   void add_seconds(std::int64_t ns) {
     if (ns < 0) put('-');
     const auto us = (std::uint64_t(ns < 0 ? -ns : ns) + 500) / 1000;
@@ -34,7 +34,7 @@ class SignalText {
     add(us % 1'000'000, 10, 6);
   }
   std::string_view view() const { return {buffer_, size_}; }
-  /// Writes it to a file descriptor; what cannot be written is lost.
+  /// Writes the text to a file descriptor; bytes that cannot be written are lost.
   void write_to(int file) const;
 
  private:

@@ -179,7 +179,7 @@ void Simulation::finish() {
   require_built("finish()");
   const CLocale locale;
   if (was_ended_) extensions_->requests().record_stop();
-  CollectedProblems problems;  // one that fails keeps no other from its files
+  CollectedProblems problems;  // one that fails does not keep others from writing their files
   for (const std::size_t i : in_order_of(order_of)) problems.run([&] { instances_[i]->finish(); });
   problems.check();
 }
@@ -223,7 +223,7 @@ void Simulation::place(const Placement& placement) {
   tell_of_change();
 }
 
-/// What simulates bodies keeps neighbours, transforms and the like.
+/// Algorithms that simulate bodies keep neighbours, transforms and the like.
 void Simulation::tell_of_change() {
   const CLocale locale;
   for (const std::size_t i : in_order_of(order_of)) {

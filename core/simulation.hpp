@@ -26,7 +26,7 @@ class OutputRegistry;
 class ReportedNumbers;
 struct LevelsOfRobot;
 
-/// The whole state of a simulation at one time, independent of the simulation's later life.
+/// The complete state of a simulation at one time; it does not change when the simulation goes on.
 struct Snapshot {
   PropertyStore::Image properties;
   Scheduler::State schedule;
@@ -52,92 +52,92 @@ class Simulation {
   World& world() { return world_; }
   const World& world() const { return world_; }
   Registry& registry() { return registry_; }
-  /// Folders of packages by name, for models that are read from now on: package://NAME/... is looked for there alone.
+  /// Sets folders of packages by name, for models that are read from now on: package://NAME/... is searched only there.
   void set_packages(std::map<std::string, std::string> packages);
-  /// Reads a model with the reader for its type. Problems of severity error make a SetupError; the
-  /// others are kept in the tree.
+  /// Reads a model with the reader for its type. Problems of severity error cause a SetupError; the tree keeps the
+  /// others.
   RobotTree read_model(const std::string& path);
-  /// The same for a file that describes a world. Errors in one of its models are left in the model's tree.
+  /// Reads a file that describes a world, in the same way. Errors in one of its models are kept in the model's tree.
   WorldModel read_world(const std::string& path);
-  /// Uses an algorithm; connects nothing yet. Returns its number in `instances()`.
+  /// Adds a use of an algorithm; connects nothing yet. Returns its index in `instances()`.
   std::size_t add(AlgorithmSetup setup);
   /// Short form of `add`: `rate` in Hz, 0 for on demand; no items for the whole scene.
   std::size_t use(const std::string& id, double rate, std::vector<Item> items = {},
                   std::map<std::string, ParameterInput> parameters = {});
-  /// An object "robot/name" for a sensor that rides on `link` of the robot: it shares the link's pose and twist.
+  /// Adds an object "robot/name" for a sensor on `link` of the robot: it shares pose and twist of the link.
   ObjectId add_sensor_object(const RobotView& robot, std::string_view name, ObjectId link);
-  /// Algorithms (by number of `add`) that run in this order, as one item, at the rate of the first.
+  /// Runs algorithms (given by index of `add`) in this order, as one item, at the rate of the first.
   void add_sequence(std::vector<std::size_t> algorithms) { sequences_.push_back(std::move(algorithms)); }
-  /// The robot is moved by one of several motions at a time: those used for it whose items have the levels 0, 1, ...,
-  /// named here; `first` is the level at the start. See keys::motion_level_target.
+  /// Lets one of several motions at a time move the robot. These are the motions whose items for it have the levels 0,
+  /// 1, ...; `names` names them, and `first` is the level at the start. See keys::motion_level_target.
   void set_levels(const RobotView& robot, std::vector<std::string> names, std::uint32_t first);
-  /// Where log lines of algorithms go; default: warnings and errors to standard error.
+  /// Receives the log lines of algorithms; default: warnings and errors go to standard error.
   void set_log(std::function<void(LogLevel, std::string_view)> log);
-  /// On how many threads calls are made that may overlap; 1, unless set. Never changes a result. When the machine
-  /// starts no more threads, a warning says so, and there are fewer. [between runs]
+  /// Sets the number of threads for calls that may overlap; 1 unless set. Never changes a result. When the machine
+  /// cannot start so many threads, a warning says so, and there are fewer. [between runs]
   void set_threads(unsigned threads);
-  /// Makes runs prove that algorithms touch only what they have declared; see AccessCheck. [between runs]
+  /// Makes runs check that algorithms access only what they have declared; see AccessCheck. [between runs]
   void verify_access();
-  /// Throws SetupError unless the factor is 0 (as fast as it goes) or from 1e-6 to 1e6. [between runs]
+  /// Throws SetupError unless the factor is 0 (as fast as possible) or from 1e-6 to 1e6. [between runs]
   void set_pacing(Pacing pacing);
-  /// What is written: algorithms add their files when they connect; who runs the simulation adds its own, and what it
-  /// reads, before `build`, which checks them all. [setup]
+  /// The output files. Algorithms add theirs when they connect; the program that runs the simulation adds its output
+  /// and input files before `build`, which checks them all. [setup]
   OutputRegistry& outputs();
-  /// Recorders and views are to be connected and checked, but not started: nothing is written, and the simulation
-  /// cannot run. For a look at it. [before build]
+  /// Lets recorders and views be connected and checked, but not started: nothing is written, and the simulation cannot
+  /// run. For its inspection. [before build]
   void keep_outputs_closed() { outputs_closed_ = true; }
-  /// Nothing outside is opened: no stream, no port. A recording may stand in for it. [before build]
+  /// Opens nothing outside: no stream, no port. A recording may replace them. [before build]
   void keep_inputs_closed() { inputs_closed_ = true; }
-  /// Connects everything, checks it, starts it. Throws SetupError with every problem found.
+  /// Connects everything, checks it and starts it. Throws SetupError with every problem found.
   void build();
 
-  // --- running, all of it after `build`; before, and for times that cannot be, there is a SetupError
-  /// `seconds`: 0 or more, so that the end is at most 4.6e9 s after the start.
+  // --- running, all of it after `build`; an earlier call, or a time that is not possible, throws SetupError
+  /// Runs for `seconds`: 0 or more, so that the end is at most 4.6e9 s after the start.
   void run_for(double seconds);
-  /// Up to but not including `time` (ns, from 0 to 4.6e18). `stop` is asked every few instants; true ends the run.
+  /// Runs up to but not including `time` (ns, 0 to 4.6e18). `stop` is called every few instants; true ends the run.
   void run_until(std::int64_t time, const std::function<bool()>& stop = {});
-  /// Runs call `sample` at each multiple of `period` (ns) of simulated time, and before and after poses jump. None: no
-  /// more. [between runs]
+  /// Lets runs call `sample` at each multiple of `period` (ns) of simulated time, and before and after poses jump. An
+  /// empty `sample` ends this. [between runs]
   void set_sampling(std::int64_t period, std::function<void()> sample);
   std::int64_t now() const { return scheduler_.now(); }  ///< ns
-  /// Ends the run soon; nothing runs any more then. [on the thread that runs]
+  /// Ends the run soon; then it cannot be continued. [on the thread that runs]
   void stop();
-  /// Whether somebody, such as an algorithm, has called for that.
+  /// Whether stop() was called, or an algorithm has ended the run.
   bool stopped() const;
-  /// Tells algorithms that the run is over for now: recorders write their files.
+  /// Informs algorithms that the run is over for now: recorders write their files.
   void finish();
 
-  /// Brings the poses of all bodies up to `now`, for whoever reads them between runs. Without influence on the run.
+  /// Updates the poses of all bodies to `now`, for readers between runs. Has no influence on the run.
   void refresh();
 
   // --- state
   Snapshot snapshot() const;
   void restore(const Snapshot& snapshot);
-  /// As right after `build`, to the bit.
+  /// Returns to the state right after `build`, with the same bits.
   void reset();
   std::uint64_t state_hash() const { return world_.hash(); }
 
   // --- from outside
-  /// Puts a robot, or an object that moves, at a pose with a velocity, for whatever motion. Throws SetupError that says
-  /// why it cannot be there: it does not move, the pose is out of range, or, unless it is forced, it would overlap
-  /// something. [between runs]
+  /// Puts a robot, or an object that moves, at a pose with a velocity; works with every motion. Throws SetupError with
+  /// the reason when it cannot be there: it does not move, the pose is out of range, or, unless the placement is
+  /// forced, it would overlap something. [between runs]
   void place(const Placement& placement);
-  /// How overlaps are found; without it, everything may be put anywhere. [setup]
+  /// Sets the check for overlaps; without it, everything may be put anywhere. [setup]
   void set_overlap_check(OverlapCheck check) { overlap_check_ = std::move(check); }
-  /// State has been written from outside: tells those that keep something of it. [between runs]
+  /// Informs algorithms that keep parts of the state that it was changed from outside. [between runs]
   void tell_of_change();
-  /// How often poses have jumped: by placing, a reset or a restored snapshot.
+  /// Number of jumps of poses: by placing, a reset or a restored snapshot.
   std::uint64_t jumps() const { return jumps_; }
   const InputLog& inputs() const;
   const ReportedNumbers& reported_numbers() const;
 
-  // --- what it consists of
+  // --- its parts
   const std::vector<std::unique_ptr<Instance>>& instances() const { return instances_; }
   Scheduler& scheduler() { return scheduler_; }
   const Scheduler& scheduler() const { return scheduler_; }
-  /// Those of the plugins that were asked for, then those that algorithms have loaded themselves.
+  /// Libraries of the plugins that were requested, then libraries that algorithms have loaded themselves.
   std::vector<UsedLibrary> libraries() const;
-  /// The task of an instance.
+  /// Returns the task of an instance.
   TaskId task_of(std::size_t instance) const { return tasks_[instance]; }
 
  private:
@@ -170,12 +170,12 @@ class Simulation {
   std::unique_ptr<Levels> levels_;
   std::vector<TaskId> tasks_;
   Snapshot initial_;
-  std::int64_t sampling_period_ = 0;  ///< ns; 0: nobody samples
+  std::int64_t sampling_period_ = 0;  ///< ns; 0: no sampling
   std::function<void()> sample_;
   OverlapCheck overlap_check_;
   std::uint64_t jumps_ = 0;
   bool built_ = false;
-  bool was_ended_ = false;  ///< the last run, before its time
+  bool was_ended_ = false;  ///< the last run was ended before its time
   bool outputs_closed_ = false, inputs_closed_ = false;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a simulation is built: from uses of algorithms to tasks of the scheduler.
+// The build of a simulation: from uses of algorithms to tasks of the scheduler.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ void Simulation::make_instances() {
   problems.check();
 }
 
-/// What is on demand in a sequence has the rate of the others; where these differ the scheduler refuses it.
+/// Gives algorithms on demand in a sequence the rate of the others. The scheduler refuses a sequence of several rates.
 void Simulation::adopt_rates_of_sequences() {
   for (const auto& sequence : sequences_) {
     const auto instance_of = [&](std::size_t a) -> Instance& { return *instances_[instance_of_setup_[a]]; };
@@ -79,7 +79,7 @@ void Simulation::adopt_rates_of_sequences() {
   }
 }
 
-/// By the blocks of robots that threads work on.
+/// Partitions memory by the blocks of robots on which threads work.
 void Simulation::partition_memory() {
   const std::vector<std::uint32_t> bounds = block_bounds(std::uint32_t(world_.robots().size()));
   std::vector<std::uint32_t> partitions(world_.object_count(), 0);
@@ -89,7 +89,7 @@ void Simulation::partition_memory() {
   world_.store().set_partitions(std::move(partitions));
 }
 
-/// Tells each motion which of its robots another one moves at the start.
+/// Marks for each motion those of its robots that another motion moves at the start.
 void Simulation::mark_inactive_motions() {
   for (const auto& instance : instances_) {
     std::vector<bool> inactive(world_.robots().size());
@@ -110,8 +110,8 @@ void Simulation::connect_or_leave_out(Instance& instance, void (Instance::*how)(
   }
 }
 
-/// What serves a robot builds on the kinds before it: where one of those has failed, it would only find what follows
-/// from that, and is left out.
+/// An algorithm that serves a robot depends on the kinds before it. When one of those has failed, it is left out: it
+/// would only report consequences of that failure.
 void Simulation::connect_all() {
   CollectedProblems problems;
   std::map<const RobotView*, int> failed;  // the first kind that could not be connected
@@ -133,7 +133,7 @@ void Simulation::connect_all() {
   connect(&Instance::connect_by_name, order_by_name);
 }
 
-/// Also with what algorithms and the scene read.
+/// Checks the outputs, also against the files that algorithms and the scene read.
 void Simulation::check_outputs() {
   OutputRegistry& all = outputs();
   if (all.empty()) return;
@@ -157,7 +157,7 @@ void Simulation::start_all() {
   if (outputs_closed_) extensions_->inputs().show_all();
   for (const std::size_t i : in_order_of(order_of)) {
     const Kind kind = instances_[i]->description().kind;
-    if (instances_[i]->setup().is_optional) continue;  // it has started, or is left out
+    if (instances_[i]->setup().is_optional) continue;  // it was started already, or is left out
     if (!outputs_closed_ || (kind != Kind::recorder && kind != Kind::view)) instances_[i]->start();
   }
   extensions_->inputs().check_recording();

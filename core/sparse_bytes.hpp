@@ -9,7 +9,7 @@
 
 namespace muro {
 
-/// A copy of bytes that leaves out what is zero, as most of a state at its start is.
+/// A copy of bytes that leaves out pieces that are zero; most of a state is zero at its start.
 class SparseBytes {
  public:
   explicit SparseBytes(std::span<const std::byte> bytes) : size_(bytes.size()) {
@@ -26,9 +26,9 @@ class SparseBytes {
       bytes_.insert(bytes_.end(), part.begin(), part.end());
     }
   }
-  /// Of what was copied.
+  /// Size of the copied bytes.
   std::size_t size() const { return size_; }
-  /// `to` has that size.
+  /// Copies the bytes to `to`, which has this size.
   void copy_to(std::span<std::byte> to) const {
     std::fill(to.begin(), to.end(), std::byte{0});
     auto from = bytes_.begin();
@@ -42,14 +42,14 @@ class SparseBytes {
  private:
   static constexpr std::size_t piece = 512;
 
-  /// Each byte is that before it, and the first is zero.
+  /// Compares each byte with the byte before it; the first is zero.
   static bool is_zero(std::span<const std::byte> part) {
     return part[0] == std::byte{0} && std::memcmp(part.data(), part.data() + 1, part.size() - 1) == 0;
   }
 
   std::size_t size_;
-  std::vector<std::size_t> begins_;  ///< of pieces that are not zero
-  std::vector<std::byte> bytes_;     ///< of these pieces, one behind the other
+  std::vector<std::size_t> begins_;  ///< begins of the pieces that are not zero
+  std::vector<std::byte> bytes_;     ///< the bytes of these pieces, one after the other
 };
 
 }  // namespace muro

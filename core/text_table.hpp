@@ -10,7 +10,7 @@
 
 namespace muro {
 
-/// Texts by number, each once; number 0 is the empty text. Views of texts stay valid for as long as the table lives.
+/// Texts by number, each once; number 0 is the empty text. Views of texts stay valid while the table lives.
 class TextTable {
  public:
   TextTable() { intern(""); }
@@ -29,7 +29,7 @@ class TextTable {
 
  private:
   std::deque<std::string> texts_;
-  std::unordered_map<std::string_view, TextId> ids_;  ///< of views of texts_
+  std::unordered_map<std::string_view, TextId> ids_;  ///< keys are views of texts_
 };
 
 }  // namespace muro

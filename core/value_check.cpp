@@ -14,7 +14,7 @@ namespace muro {
 
 namespace {
 
-/// A copy, since what lies in a model's bytes need not be aligned.
+/// Returns a copy, since values in the bytes of a model need not be aligned.
 template <class T>
 T value_at(const void* data, std::uint32_t i) {
   T value;

@@ -67,7 +67,7 @@ void each_text(const KeyInfo& key, Bytes* data, std::size_t size, Visit visit) {
   }
 }
 
-/// The number of a text that lies at `place`. Throws SetupError when it is of another world or model.
+/// Returns the number of a text that lies at `place`. Throws SetupError when it is of another world or model.
 std::size_t number_of_text(const std::byte* place, std::size_t texts, const std::string& object, const KeyInfo& key) {
   TextId id;
   std::memcpy(&id, place, sizeof id);
@@ -80,7 +80,7 @@ std::size_t number_of_text(const std::byte* place, std::size_t texts, const std:
   return number;
 }
 
-/// The bytes of a constant in which texts of the model are texts of the world: `texts` translates.
+/// Returns the bytes of a constant with texts of the model replaced by texts of the world: `texts` translates.
 std::vector<std::byte> with_texts(const RobotTree::Constant& c, const std::vector<TextId>& texts,
                                   const std::string& object) {
   std::vector<std::byte> data = c.data;
@@ -191,7 +191,7 @@ std::uint64_t World::hash(const RobotView& robot) const {
 }
 
 std::uint64_t World::hash_of_robots() const {
-  std::uint64_t sum = 0;  // of hashes that contain the names: commutative, so independent of the order
+  std::uint64_t sum = 0;  // sum of hashes that contain the names: commutative, so it does not depend on the order
   for (const RobotView* r : robot_pointers_) sum += hash(*r);
   return sum;
 }

@@ -17,22 +17,22 @@ class World {
  public:
   World();
 
-  /// A new object; throws SetupError when the name is taken, or is none: see check_object_name. [setup]
+  /// Adds an object. Throws SetupError when the name is taken, or is not allowed: see check_object_name. [setup]
   ObjectId add_object(std::string_view name);
   /// An object of a robot that its model does not have, such as a sensor. [setup]
   ObjectId add_object(std::string_view name, RobotId robot);
   /// Scenery: a body that does not move. Throws SetupError when its pose or shapes are out of range
   /// (muro/base/limits.hpp). [setup]
   ObjectId add_scenery(std::string_view name, const Pose& pose, std::span<const Shape> shapes);
-  /// The same for a body that looks other than what it collides with.
+  /// Adds scenery whose visual shapes differ from its collision shapes. [setup]
   ObjectId add_scenery(std::string_view name, const Pose& pose, std::span<const Shape> collisions,
                        std::span<const Shape> visuals);
-  /// A robot "name" with an object "name/component" for every component of the tree. Throws SetupError when the pose
-  /// is out of range. [setup]
+  /// Adds a robot "name" with an object "name/component" for every component of the tree. Throws SetupError when the
+  /// pose is out of range. [setup]
   const RobotView& add_robot(std::string_view name, const RobotTree& tree, const Pose& start = {});
 
   ObjectId find_object(std::string_view name) const;
-  /// As find_object; throws SetupError with the nearest name.
+  /// Returns the object of this name. Throws SetupError with the nearest name when there is none.
   ObjectId object(std::string_view name) const;
   std::uint32_t object_count() const { return std::uint32_t(robot_of_.size()); }
   const std::string& object_name(ObjectId id) const { return store_.object_name(id); }
@@ -49,7 +49,7 @@ class World {
   PropertyStore& store() { return store_; }
   const PropertyStore& store() const { return store_; }
 
-  /// A constant. Throws SetupError when the value is out of range (muro/base/limits.hpp). [setup]
+  /// Sets a constant. Throws SetupError when the value is out of range (muro/base/limits.hpp). [setup]
   template <class T>
   void set(ObjectId object, const Key<T>& key, const T& value) {
     set_values(object, key, &value, single_value);
@@ -62,8 +62,8 @@ class World {
   void share(ObjectId a, const Key<T>& key_a, ObjectId b, const Key<U>& key_b) {
     store_.share(a, key_a, b, key_b);
   }
-  /// The present value of a single property; throws SetupError when there is none of this type. What is derived on
-  /// demand is as old as its last reader: see Simulation::refresh.
+  /// The present value of a single property; throws SetupError when there is none of this type. A value that is derived
+  /// on demand dates from the last run of an algorithm that reads it: see Simulation::refresh.
   template <class T>
   T& value(ObjectId object, const Key<T>& key) const {
     return *static_cast<T*>(place(object, key));
@@ -84,7 +84,7 @@ class World {
   T* find_value(ObjectId object, const Key<T>& key) const {
     return static_cast<T*>(find_place(object, key));
   }
-  /// Whether an object has a property of this name: somebody makes it, or asks for it.
+  /// Whether an object has a property of this name: an algorithm or the set-up creates it, or asks for it.
   bool has(ObjectId object, std::string_view key) const { return store_.find(object, key) != nullptr; }
   /// Whether an algorithm writes it.
   bool is_written(ObjectId object, std::string_view key) const;
@@ -111,7 +111,7 @@ class World {
 
   /// Hash of the variable properties of a robot's objects; does not depend on other robots.
   std::uint64_t hash(const RobotView& robot) const;
-  /// Hash of those of all robots: what is beside them, such as a camera that looks on, has no say in it.
+  /// Hash of the variable properties of all robots; other objects, such as a camera that looks on, do not count.
   std::uint64_t hash_of_robots() const;
   /// Hash of all variable properties; does not depend on the order in which robots were declared.
   std::uint64_t hash() const;

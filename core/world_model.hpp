@@ -11,7 +11,7 @@
 
 namespace muro {
 
-/// A world as a file describes it (Simulation::read_world), before anything of it is in a simulation.
+/// A world as a file describes it (Simulation::read_world), before any part of it is in a simulation.
 class WorldModel final : public WorldBuilder, public PackageFolders {
  public:
   struct Scenery {
@@ -22,7 +22,7 @@ class WorldModel final : public WorldBuilder, public PackageFolders {
   /// A model that can move.
   struct Model {
     std::string name;
-    Pose pose;  ///< of its base
+    Pose pose;  ///< pose of its base
     RobotTree tree;
   };
 
@@ -36,20 +36,20 @@ class WorldModel final : public WorldBuilder, public PackageFolders {
 
   void* find_extension(const ExtensionId& id) noexcept override;
   std::span<const PackageFolder> package_folders() const noexcept override { return packages_; }
-  /// For the reader that builds it; must outlive that.
+  /// Sets the folders for the reader that builds the model; they must outlive the reader.
   void set_packages(std::span<const PackageFolder> packages) { packages_ = packages; }
 
-  /// Closes the trees, and checks what spans several of them. Call once after building.
+  /// Closes the trees, and checks what concerns several of them. Call once after building.
   void close();
 
-  /// What the file says, if it does.
+  /// Gravity in the file, if it gives one.
   const std::optional<Vec3>& gravity() const { return gravity_; }
   std::optional<FrictionRule> friction_rule() const { return friction_rule_; }
   const std::deque<Scenery>& scenery() const { return scenery_; }
   const std::deque<Model>& models() const { return models_; }
-  /// What the shapes of scenery name; a tree has texts of its own.
+  /// Texts that the shapes of scenery name; a tree has texts of its own.
   const TextTable& texts() const { return texts_; }
-  /// Of the whole file. Those of one model are in its tree: a tree with errors makes no robot, but may stand still.
+  /// Problems of the whole file. Those of one model are in its tree: a tree with errors makes no robot, only scenery.
   const std::vector<RobotTree::Problem>& problems() const { return problems_; }
 
  private:

@@ -25,7 +25,7 @@ namespace {
 
 using namespace muro::host;
 
-/// Checks of the command line; CLI11 lets `nan` and `-1` pass where a number is wanted.
+/// Checks of the command line; CLI11 accepts `nan` and `-1` as numbers.
 std::string check_duration(const std::string& text) {
   double x = 0;
   const auto [used, code] = std::from_chars(text.data(), text.data() + text.size(), x);
@@ -52,7 +52,7 @@ std::string check_threads(const std::string& text) {
   return fine || text == "all" ? "" : "`" + text + "` is neither `all` nor a number of threads from 1 to 1024";
 }
 
-/// The message when there is no command, or an unknown one; else empty.
+/// Returns the message for a missing or an unknown command; empty when there is none.
 std::string unknown_command(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* c : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(c->get_name());
@@ -80,7 +80,7 @@ void add_strict_option(CLI::App& command, ScenarioOptions& options) {
                    "Unsupported features and missing collision shapes are errors, not notes");
 }
 
-/// Each adds a command to the program and calls it when it is given; the exit code goes to `exit_code`.
+/// Adds each command to the program and calls it when it is given; the exit code goes to `exit_code`.
 struct Commands {
   CLI::App& app;
   std::vector<std::string> plugin_path{};
@@ -346,7 +346,7 @@ int exit_code_of(int argc, char** argv) {
     return 2;
   } catch (const std::exception& e) {
     if (!standard_output_failed()) fmt::print(stderr, "muro failed: {}\n", muro::message_text(e.what()));
-    return standard_output_failed() ? 0 : 1;  // close_standard_output tells of it
+    return standard_output_failed() ? 0 : 1;  // close_standard_output reports it
   }
 }
 
@@ -356,10 +356,10 @@ int main(int argc, char** argv) {
   report_crashes();
   report_lack_of_memory();
   const ExitGuard guard;
-  // a reader that leaves and a file that grows too large are errors of who writes, so that other outputs are closed
+  // a reader that leaves and a file that grows too large are errors of the writer, so that other outputs are closed
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGCHLD, SIG_DFL);  // who started this program may have it ignored: then no end of a process is told
+  std::signal(SIGCHLD, SIG_DFL);  // if the parent process ignores it, the ends of processes are not reported
   keep_standard_streams();
   lose_what_standard_error_refuses();
   return close_standard_output(exit_code_of(argc, argv));

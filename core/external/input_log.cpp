@@ -28,7 +28,7 @@ void RecordedChannel::add(const RecordedInput& input) {
   bytes_ += input.input.bytes;
 }
 
-/// Those that nobody took when it was their time.
+/// Skips the inputs that no algorithm took at their time.
 void RecordedChannel::skip_missed(std::int64_t time) {
   const auto now = std::tuple(log_.epoch(), time);
   for (; next_ < entries_.size() && std::tuple(entries_[next_].epoch, entries_[next_].time) < now; ++next_) ++unused_;

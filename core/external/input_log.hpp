@@ -14,7 +14,7 @@ class InputLog;
 class Scheduler;
 class World;
 
-/// The inputs of one name. In a replay it holds those of the recording.
+/// The inputs of one channel name. In a replay it holds the inputs of the recording.
 class RecordedChannel final : public InputChannel {
  public:
   RecordedChannel(InputLog& log, std::string name) : log_(log), name_(std::move(name)) {}
@@ -25,7 +25,7 @@ class RecordedChannel final : public InputChannel {
   bool replay(std::int64_t time, ExternalInput& input) noexcept override;
 
   void add(const RecordedInput& input);
-  /// ns, of the next recorded input of this epoch; the greatest number when there is none.
+  /// Time (ns) of the next recorded input of this epoch; the greatest number when there is none.
   std::int64_t next_time() const;
   std::size_t size() const { return entries_.size(); }
   std::uint32_t highest_kind() const;
@@ -36,7 +36,7 @@ class RecordedChannel final : public InputChannel {
     std::uint64_t epoch;
     std::int64_t time;
     std::uint32_t kind, source;
-    std::size_t begin, size;  ///< in bytes_
+    std::size_t begin, size;  ///< position in bytes_
   };
   void skip_missed(std::int64_t time);
   bool take_next(ExternalInput& input);
@@ -49,7 +49,7 @@ class RecordedChannel final : public InputChannel {
   std::size_t unused_ = 0;
 };
 
-/// All that comes from outside of a simulation: handed to a recorder, or taken from a recording.
+/// All inputs from outside of a simulation: they are passed to a recorder, or taken from a recording.
 class InputLog final : public ExternalInputs {
  public:
   InputLog(const World& world, const Scheduler& scheduler) : world_(world), scheduler_(scheduler) {}
@@ -67,21 +67,21 @@ class InputLog final : public ExternalInputs {
 
   void set_initial_hash(std::uint64_t hash) { initial_hash_ = hash; }
   void keep_closed() { may_open_ = false; }
-  /// The same where nothing is run either: then replay(-1) gives all inputs, to be looked at.
+  /// Gives all recorded inputs through replay(-1), so that they can be inspected. For a simulation that does not run.
   void show_all() { shows_all_ = true; }
   bool shows_all() const { return shows_all_; }
-  /// Throws SetupError where the recording has what this scenario does not take. Once all channels are asked for.
+  /// Throws SetupError when the recording holds inputs that this scenario does not take. Call when all channels exist.
   void check_recording() const;
-  /// The simulation was reset or restored: time jumps.
+  /// Called when the simulation was reset or restored: time jumps.
   void begin_epoch() { ++epoch_; }
   bool has_recording() const { return has_recording_; }
-  /// The same for the channel of the simulation itself.
+  /// The channel of the simulation itself.
   RecordedChannel& own_channel() { return own_; }
   void record(const RecordedInput& input) noexcept;
-  /// The same for what is no live one: an input that comes from a recording, or the end of the run.
+  /// Passes an input to the recorder that is not live: one from a recording, or the end of the run.
   void record_again(const RecordedInput& input) noexcept;
 
-  std::uint64_t count() const { return count_; }  ///< inputs so far, live ones
+  std::uint64_t count() const { return count_; }  ///< number of live inputs so far
   const std::vector<std::string>& reasons() const { return reasons_; }
 
  private:
@@ -89,7 +89,7 @@ class InputLog final : public ExternalInputs {
 
   const World& world_;
   const Scheduler& scheduler_;
-  std::mutex mutex_;  ///< of `sink_`, `reasons_`
+  std::mutex mutex_;  ///< guards `sink_` and `reasons_`
   RecordedChannel own_{*this, "simulation"};
   struct Place {
     RecordedChannel channel;
@@ -99,7 +99,7 @@ class InputLog final : public ExternalInputs {
   InputSink* sink_ = nullptr;
   bool has_recording_ = false;
   bool may_open_ = true, shows_all_ = false;
-  std::string replay_;  ///< who has the recording: begins messages about it
+  std::string replay_;  ///< name of the algorithm that has the recording; begins messages about it
   std::uint64_t epoch_ = 0;
   std::uint64_t initial_hash_ = 0;
   std::uint64_t count_ = 0;

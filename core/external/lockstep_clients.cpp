@@ -21,7 +21,7 @@ LockstepStream& LockstepClients::join(std::string_view client, std::string_view 
   return found->streams.emplace_back(*this, *found, stream, timeout);
 }
 
-/// It has all that it asked for, and somebody is there, or expected, who could say something.
+/// Whether it has all its answers, and a client that could send something is connected or expected.
 bool LockstepClients::Client::is_its_turn() const {
   const auto is_owed = [](const Stream& s) { return s.pending > 0; };
   const auto may_speak = [](const Stream& s) { return (s.connections > 0 || s.is_expected) && !s.is_subscribed; };
@@ -34,7 +34,7 @@ void LockstepClients::Stream::set_connected(bool connected) noexcept {
   if (connected) {
     ++connections;
     is_expected = client.is_given_up = false;
-  } else if (connections > 0 && --connections == 0) {  // nobody is there who waits for an answer
+  } else if (connections > 0 && --connections == 0) {  // no client is there that waits for an answer
     void_answers += std::exchange(pending, 0);
     is_subscribed = false;
   }
@@ -72,7 +72,7 @@ std::string LockstepClients::Stream::why_it_waits(std::int64_t time) const {
 LockstepStream::Outcome LockstepClients::Stream::wait(std::int64_t time) noexcept {
   if (clients.is_replayed && clients.is_replayed()) return Outcome::go_on;
   using Clock = std::chrono::steady_clock;
-  constexpr auto slice = std::chrono::milliseconds(20);  // between looks at `is_stopping`
+  constexpr auto slice = std::chrono::milliseconds(20);  // between checks of `is_stopping`
   const auto begin = Clock::now(),
              end = begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout));
   std::unique_lock lock(client.mutex);

@@ -11,16 +11,16 @@
 
 namespace muro {
 
-/// The external clients for which time waits, and whose turn it is.
+/// The external clients for which simulated time waits; decides which client has its turn.
 class LockstepClients final : public Lockstep {
  public:
   LockstepStream& join(std::string_view client, std::string_view stream, double timeout) noexcept override;
 
-  /// Whether the run is to end: a wait ends then.
+  /// Whether the run is to end; a wait then ends.
   std::function<bool()> is_stopping;
-  /// Whether a recording stands in for all clients: nobody is waited for.
+  /// Whether a recording replaces all clients; then no client is waited for.
   std::function<bool()> is_replayed;
-  /// Tells the user for whom time waits, when it has done so for `patience`; twice as long before the next note.
+  /// Reports the client for which time waits, after `patience`. Each further note comes after twice as long.
   std::function<void(const std::string& note)> say;
   double patience = 3;  ///< s
 
@@ -34,8 +34,8 @@ class LockstepClients final : public Lockstep {
     std::mutex mutex;
     std::condition_variable changed;
     std::deque<Stream> streams;
-    bool is_given_up = false;  ///< it did not answer in time; until it says something
-    std::uint32_t notes = 0;   ///< how often a wait for it was told
+    bool is_given_up = false;  ///< it did not answer in time; lasts until it sends something
+    std::uint32_t notes = 0;   ///< number of reported waits
   };
   struct Stream final : LockstepStream {
     Stream(LockstepClients& its_clients, Client& its_client, std::string_view its_name, double its_timeout)
@@ -52,9 +52,9 @@ class LockstepClients final : public Lockstep {
     std::string name;
     double timeout;  ///< s
     std::uint32_t connections = 0;
-    bool is_expected = true;         ///< nobody has connected yet
-    std::uint64_t pending = 0;       ///< messages that arrived and are not answered
-    std::uint64_t void_answers = 0;  ///< of messages of clients that have left: they are still to be given
+    bool is_expected = true;         ///< no client has connected yet
+    std::uint64_t pending = 0;       ///< messages that arrived and are not answered yet
+    std::uint64_t void_answers = 0;  ///< answers that are still due to clients that have left
     bool is_subscribed = false;
   };
 

@@ -14,7 +14,7 @@ namespace muro {
 
 namespace {
 
-/// The place of a property that changes, or null.
+/// Returns the place of a property that changes, or null.
 template <class T>
 T* variable(const World& world, ObjectId object, const Key<T>& key) {
   const Slot* slot = world.store().find(object, key.name);

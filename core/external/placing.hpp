@@ -10,14 +10,14 @@ namespace muro {
 
 class World;
 
-/// What a robot, or an object that moves, would overlap where it is to be put, as the end of a sentence: "`wall` by
-/// 0.2 m". Empty: nothing.
+/// Returns the objects that a robot, or an object that moves, would overlap at its new place, as the end of a sentence:
+/// "`wall` by 0.2 m". Empty: there is no overlap.
 using OverlapCheck = std::function<std::string(const Placement&)>;
 
-/// Why a placement is not possible in `world`; empty: it is. Names the object and what is allowed.
+/// Returns why a placement is not possible in `world`: names the object and the allowed values. Empty: it is possible.
 std::string problem_of(const World& world, const Placement& placement);
 
-/// Writes pose and twist. Only after problem_of has found nothing.
+/// Writes pose and twist. Call only after problem_of has found no problem.
 void write_placement(World& world, const Placement& placement);
 
 }  // namespace muro

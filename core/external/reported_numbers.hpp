@@ -25,7 +25,7 @@ class ReportedNumbers final : public ReportEntries {
  private:
   template <class T>
   static T& at(Named<T>& all, std::string_view name) {
-    // the last one first: numbers of one thing are set one after the other
+    // search from the end: numbers that belong together are given one after the other
     for (auto i = all.rbegin(); i != all.rend(); ++i)
       if (i->first == name) return i->second;
     return all.emplace_back(std::string(name), T{}).second;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Requests as bytes, in which they are recorded.
+// Requests as bytes, the form in which they are recorded.
 #pragma once
 
 #include <cstring>
@@ -9,7 +9,7 @@
 
 namespace muro {
 
-/// Puts values and texts one behind the other, in the byte order of the machine.
+/// Writes values and texts one after the other, in the byte order of the machine.
 class RequestWriter {
  public:
   template <class T>
@@ -29,7 +29,7 @@ class RequestWriter {
   std::string bytes_;
 };
 
-/// Takes them again. What is not there is 0 or empty, and `is_complete` tells of it.
+/// Reads them again. A missing value is 0 or empty, and `is_complete` reports it.
 class RequestReader {
  public:
   explicit RequestReader(std::string_view bytes) : rest_(bytes) {}

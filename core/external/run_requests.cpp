@@ -89,13 +89,13 @@ void RunRequests::carry_out(Simulation& simulation, const std::function<bool()>&
   const auto is_over = [&] { return stop && stop(); };
   for (;;) {
     if (inputs_.has_recording()) replay_all(simulation);
-    while (has_requests_) carry_out_all(simulation);  // who is told that one is done may ask for the next
+    while (has_requests_) carry_out_all(simulation);  // the receiver of done() may ask for the next
     if (std::exchange(speed_changed_, false)) simulation.set_pacing({speed_});
     if (paused_ && pause_at_ >= 0 && simulation.now() >= pause_at_) pause_at_ = -1;
     if (!paused_ || pause_at_ >= 0 || is_over()) break;
     for (PauseAttendant* const attendant : attendants_) attendant->attend();
     if (!has_requests_ && paused_ && pause_at_ < 0) std::this_thread::sleep_for(std::chrono::microseconds(500));
-    simulation.set_pacing({speed_});  // the time of a pause is not made up for
+    simulation.set_pacing({speed_});  // the run does not make up for the time of a pause
   }
 }
 
@@ -154,7 +154,7 @@ std::string RunRequests::carry_out(Simulation& simulation, Kind kind, std::strin
         simulation.reset();
         return "";
       case Kind::stop:
-        if (inputs_.may_open()) simulation.stop();  // who only looks at the recorded run may look at what follows
+        if (inputs_.may_open()) simulation.stop();  // an inspection of the recorded run does not stop here
         has_stopped_ = true;
         return "";
       case Kind::snapshot:

@@ -17,7 +17,7 @@ namespace muro {
 class Simulation;
 struct Snapshot;
 
-/// What algorithms ask of the run, and what a recording has asked of it: carried out between two instants.
+/// Requests of algorithms and of a recording to the run; they are carried out between two instants.
 class RunRequests final : public RunControl {
  public:
   RunRequests(InputLog& inputs, const World& world);
@@ -42,26 +42,26 @@ class RunRequests final : public RunControl {
   /// Somebody may ask for something: instants have to be told apart.
   void want() { wanted_ = true; }
   bool is_wanted() const { return wanted_; }
-  /// The speed of the run as it was chosen outside.
+  /// Sets the speed of the run as it was chosen outside.
   void start_with_speed(double factor) { speed_ = factor; }
-  /// Whether the run has to stop between instants for something that was asked.
+  /// Whether the run has to stop between instants for a request.
   bool is_waiting() const { return has_requests_ || speed_changed_ || (paused_ && pause_at_ < 0); }
-  /// ns: the run is to stop there for a recorded request, or for the end of a step.
+  /// Time (ns) at which the run is to stop for a recorded request, or for the end of a step.
   std::int64_t next_time(std::int64_t now) const;
-  /// Whether there is something to carry out at `now` (ns), or it was asked for.
+  /// Whether something has to be carried out at `now` (ns).
   bool is_due(std::int64_t now) const { return is_waiting() || next_time(now) <= now; }
-  /// The run has ended here, before its time: its replay does so too.
+  /// Records that the run has ended here, before its time; its replay ends here too.
   void record_stop();
-  /// Carries out what was asked, and stays here while the run is paused. `stop` ends a pause.
+  /// Carries out the requests, and stays here while the run is paused. `stop` ends a pause.
   void carry_out(Simulation& simulation, const std::function<bool()>& stop);
 
-  /// Of an input of the simulation's own channel.
+  /// The kinds of inputs in the simulation's own channel.
   enum class Kind : std::uint32_t { place, set, reset, snapshot, restore, stop };
 
  private:
   struct Request {
     Kind kind;
-    std::string bytes;  ///< what is recorded: see encode and decode
+    std::string bytes;  ///< the recorded form of the request
     std::uint64_t ticket = 0;
     RequestDone* done = nullptr;
     bool is_from_outside = true;
@@ -69,21 +69,21 @@ class RunRequests final : public RunControl {
   void add(Request request) noexcept;
   void carry_out_all(Simulation& simulation);
   void replay_all(Simulation& simulation);
-  /// Why it was refused; empty: it is done.
+  /// Returns why it was refused; empty when it was done.
   std::string carry_out(Simulation& simulation, Kind kind, std::string_view bytes);
   std::string set_element(Simulation& simulation, std::string_view bytes);
 
   InputLog& inputs_;
   const World& world_;
-  std::mutex mutex_;  ///< of requests_
+  std::mutex mutex_;  ///< guards requests_
   std::vector<Request> requests_;
   std::atomic<bool> has_requests_{false};
   std::vector<PauseAttendant*> attendants_;
   std::map<std::string, std::unique_ptr<Snapshot>, std::less<>> snapshots_;
   bool wanted_ = false;
   bool paused_ = false;
-  bool has_stopped_ = false;    ///< and it is recorded
-  std::int64_t pause_at_ = -1;  ///< ns: paused from there on; -1: now
+  bool has_stopped_ = false;    ///< the run has ended, and its end is recorded
+  std::int64_t pause_at_ = -1;  ///< ns: a pause begins there; -1: now
   double speed_ = 0;
   bool speed_changed_ = false;
 };

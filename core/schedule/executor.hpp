@@ -29,7 +29,7 @@ struct Plan {
 /// Makes the calls of a plan, on one or several threads.
 class Executor {
  public:
-  /// Of calls; 1: the calling thread alone. Returns why there are fewer, or nothing. [between runs]
+  /// Sets the number of threads; 1: the calling thread alone. Returns why there are fewer, or "". [between runs]
   std::string set_threads(unsigned threads);
   unsigned threads() const { return threads_; }
   /// Takes the place of making calls; null: none. Calls are then made on one thread. [before the first run]

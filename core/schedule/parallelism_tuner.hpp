@@ -31,7 +31,7 @@ class ParallelismTuner {
   std::uint32_t runs_ = 0;            ///< in the present state
   std::uint32_t interval_ = 0;        ///< runs until the next trial; four times as long while the result stays the same
   std::uint32_t growth_windows_ = 1;  ///< after which it is seen whether one thread got more to do
-  std::uint32_t backoff_ = 0;         ///< runs on one thread after a trial that promised too much; grows likewise
+  std::uint32_t backoff_ = 0;         ///< runs on one thread after a trial that promised too much; then grows fourfold
   double suspected_ = 0;              ///< what `serial_` was when threads turned out to be slower; 0: no suspicion
   double serial_ = 0;                 ///< ticks of a run on one thread
   double total_ = 0;                  ///< ticks of the runs of a window, or of a trial

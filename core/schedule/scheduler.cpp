@@ -91,7 +91,7 @@ void Scheduler::prepare() {
   starts_ = is_start_of_steps();
 }
 
-/// Which tasks on demand write what a task reads.
+/// Finds the tasks on demand that write what a task reads.
 void Scheduler::find_providers() {
   std::unordered_map<std::uint32_t, std::vector<TaskId>> writers;
   for (TaskId t = 0; t < tasks_.size(); ++t)
@@ -159,8 +159,8 @@ void Scheduler::find_periods() {
       periods_[t] = belongs_to_steps_[t] ? of_motions[t] : of_writers[t] > 0 ? of_writers[t] : of_all[t];
 }
 
-/// Of the tasks on demand: the longest period of the tasks with a rate that `count` and ask for them, themselves or by
-/// other tasks on demand.
+/// Returns for each task on demand the longest period of the tasks with a rate that `count` and ask for it, themselves
+/// or through other tasks on demand.
 std::vector<double> Scheduler::periods_of_asked(const std::vector<bool>& counts) const {
   std::vector<double> periods(tasks_.size());
   for (TaskId t = 0; t < tasks_.size(); ++t) {
@@ -191,7 +191,7 @@ void Scheduler::add_providers(TaskId reader, std::vector<bool>& added, std::vect
   }
 }
 
-/// Those that motions among the due items ask for.
+/// Adds the tasks that motions among the due items ask for.
 void Scheduler::add_step_tasks(const std::vector<std::size_t>& items, std::vector<bool>& added,
                                std::vector<DueTask>& due) const {
   for (const std::size_t i : items)

@@ -65,7 +65,7 @@ class Scheduler {
   void set_seed(std::uint64_t seed) { seed_ = seed; }
   /// A hash in which the seed counts as well.
   std::uint64_t seeded(std::uint64_t hash) const { return hash_bytes(&seed_, sizeof seed_, hash); }
-  /// Of calls; 1: the calling thread alone. Returns why there are fewer, or nothing. [between runs]
+  /// Sets the number of threads; 1: the calling thread alone. Returns why there are fewer, or "". [between runs]
   std::string set_threads(unsigned threads);
   void set_pacing(Pacing pacing) { pacer_.begin(pacing, now_); }
   const Pacer& pacer() const { return pacer_; }

@@ -39,7 +39,7 @@ class TickClock {
   std::chrono::steady_clock::time_point first_wall_;
 };
 
-/// Which call ran when on which thread.
+/// Records which call ran when, and on which thread.
 class Timeline {
  public:
   struct Span {
@@ -61,7 +61,7 @@ class Timeline {
   bool full() const {
     return std::any_of(threads_.begin(), threads_.end(), [&](const auto& t) { return on() && t.size() == max_spans_; });
   }
-  /// By thread, in the order in which they ran.
+  /// The recorded calls by thread, in the order in which they ran.
   const std::vector<std::vector<Span>>& threads() const { return threads_; }
 
  private:

@@ -106,7 +106,7 @@ bool WorkerPool::has_items(const Share& share, std::uint32_t round) {
   return std::uint32_t(state >> 32) == round && (state & 0xffff) < (state >> 16 & 0xffff);
 }
 
-/// Of those that are left, the last or the next one.
+/// Takes the last or the next one of the remaining items.
 bool WorkerPool::take(Share& share, std::uint32_t round, bool last, std::uint32_t& item) {
   std::uint64_t state = share.state.load(std::memory_order_acquire);
   while (std::uint32_t(state >> 32) == round) {

@@ -38,7 +38,7 @@ class WorkerPool {
 
  private:
   static constexpr std::uint32_t max_items = 0xffff;  ///< in a round
-  /// Of a thread, in one line of the cache: all that it has to fetch before it begins.
+  /// Share of one thread, in one line of the cache: everything that the thread has to fetch before it begins.
   struct alignas(cache_distance) Share {
     /// The round that it belongs to, the end of the items that are left, the next item; in one word, so that a thread
     /// that comes late takes nothing of another round.

@@ -36,7 +36,7 @@ std::uint64_t samples_in(const SensorReading& reading, double duration) {
   return count;
 }
 
-/// The readings of one rate, sample by sample: of each reading, of each component.
+/// Returns the samples of all readings of one rate: [reading][component][sample].
 std::vector<std::vector<std::vector<double>>> record(Simulation& simulation, const std::vector<SensorReading>& readings,
                                                      std::uint64_t count) {
   std::vector<std::vector<std::vector<double>>> all(readings.size());
@@ -71,7 +71,7 @@ int allan(const AllanOptions& options) {
                     "{}",
                     options.picture, readings.front().sensor, comma_separated(names)));
   }
-  // those of another rate would need a run of their own
+  // readings of another rate would need a run of their own
   std::erase_if(readings, [&](const SensorReading& r) {
     const bool other = r.rate != readings.front().rate || r.phase != readings.front().phase;
     if (other)

@@ -31,8 +31,8 @@ BuiltScenario look_at_scenario(const ScenarioOptions& options, Registry& registr
 
 namespace {
 
-/// What readers and algorithms say while the scenario is built, in the order in which they say it. What the check
-/// itself says of models is left out.
+/// Messages of readers and algorithms while the scenario is built, in their order. Messages that the check itself
+/// replaces are left out.
 class Remarks {
  public:
   void add(const std::string& text) {
@@ -63,13 +63,13 @@ class Remarks {
 
  private:
   static constexpr std::size_t most_lines = 10;
-  /// Remarks that differ in names and numbers alone.
+  /// Remarks that differ only in names and numbers.
   struct Alike {
     std::string kind;
     std::vector<std::string> texts;
   };
 
-  /// The text without what stands in backquotes, and without numbers.
+  /// Returns the text without the parts in backquotes, and without numbers.
   static std::string kind_of(const std::string& text) {
     std::string kind;
     bool quoted = false;

@@ -21,14 +21,14 @@ struct ScenarioOptions {
 struct RunOptions {
   ScenarioOptions scenario;
   std::optional<double> duration;  ///< s
-  bool include_end = false;        ///< also what is due at the end
-  std::string speed;               ///< "max", "real" or a factor; empty: max, or with a view real
+  bool include_end = false;        ///< also run what is due at the end
+  std::string speed;               ///< "max", "real" or a factor; empty: max, or real with a view
   std::string threads;             ///< a number, "all", or empty: as the scenario says
   std::string report;              ///< file, or empty
   std::string timeline;            ///< file, or empty
-  std::string record;              ///< file for all that comes from outside, or empty
-  std::string replay;              ///< such a file, which takes the place of what is outside, or empty
-  double step_timeout = 0;         ///< s of wall-clock time after which a step is taken to hang; 0: never
+  std::string record;              ///< file for all inputs from outside, or empty
+  std::string replay;              ///< recording that replaces the inputs from outside, or empty
+  double step_timeout = 0;         ///< s of wall-clock time after which a step counts as hanging; 0: never
   bool profile = false;
   bool verify_access = false;
   bool view = false;  ///< show a window
@@ -36,8 +36,8 @@ struct RunOptions {
 
 struct CheckOptions {
   ScenarioOptions scenario;
-  bool levels = false;  ///< how every motion would serve the robots
-  bool full = false;    ///< everything, also where that is more than a screen
+  bool levels = false;  ///< also the effect of every motion on the robots
+  bool full = false;    ///< everything, even when it is longer than a screen
 };
 
 struct CompareOptions {
@@ -47,20 +47,20 @@ struct CompareOptions {
   std::optional<double> duration;    ///< s
   std::string picture;               ///< file (SVG), or empty
   std::string table;                 ///< file (CSV), or empty
-  std::vector<std::string> against;  ///< records of a real joint or laser; not empty: these are compared with
-  std::string joint;                 ///< "robot/joint" that was recorded; empty: the only one
-  std::string sensor;                ///< "robot/laser" that was recorded; empty: the only one
-  bool known_map = false;            ///< the scene is where the laser was recorded
+  std::vector<std::string> against;  ///< records of a real joint or laser, to compare with; may be empty
+  std::string joint;                 ///< "robot/joint" of the records; empty: the only one
+  std::string sensor;                ///< "robot/laser" of the records; empty: the only one
+  bool known_map = false;            ///< the scene is the room in which the laser was recorded
 };
 
 struct IdentifyOptions {
   std::vector<std::string> records;
   std::string model = "m4";
-  std::vector<std::string> fit;       ///< what is searched for, too: "gain", "delay", "temperature"
-  std::vector<std::string> validate;  ///< records that are left out, or one number: the part that is
+  std::vector<std::string> fit;       ///< also searched for: "gain", "delay", "temperature"
+  std::vector<std::string> validate;  ///< records that are left out, or one number: the part of them that is
   bool cross_validate = false;        ///< fit again without each P gain in turn
   std::optional<double> duty_gain, duty_limit;
-  std::optional<double> p_gain, supply_voltage, mass, length, arm_mass, inertia;  ///< of all records
+  std::optional<double> p_gain, supply_voltage, mass, length, arm_mass, inertia;  ///< for all records
   std::uint64_t seed = 1;
   unsigned threads = 0;              ///< 0: all
   std::vector<std::string> reports;  ///< files: Markdown or JSON
@@ -71,23 +71,23 @@ struct IdentifyOptions {
 struct RenderOptions {
   ScenarioOptions scenario;
   double at = 0;              ///< s
-  std::string camera;         ///< of a robot: "rover/camera"; empty: a free camera
-  std::vector<double> from;   ///< x, y, z (m); empty: so that all robots are seen
+  std::string camera;         ///< camera of a robot: "rover/camera"; empty: a free camera
+  std::vector<double> from;   ///< x, y, z (m); empty: a place that shows all robots
   std::vector<double> to;     ///< x, y, z (m); empty: the middle of the robots
-  std::string shows = "rgb";  ///< of a robot's camera: "rgb", "depth" or "labels"
+  std::string shows = "rgb";  ///< for a robot's camera: "rgb", "depth" or "labels"
   double fov = 50;            ///< deg, horizontal, of the free camera
   std::string size = "1280x720";
   std::string device = "auto";
   std::string out;              ///< file (PNG), or empty
   std::string video;            ///< file of a video from `at` on, or empty
-  std::optional<double> until;  ///< s; empty: as long as the scenario lasts
-  double fps = 25;              ///< frames of the video in a simulated second
+  std::optional<double> until;  ///< s; empty: to the end of the scenario
+  double fps = 25;              ///< frames of the video per simulated second
 };
 
 struct AllanOptions {
   ScenarioOptions scenario;
-  std::string sensor;              ///< "rover/imu", or "imu" where only one robot has it
-  std::string reading;             ///< "angular_velocity"; empty: all that have errors
+  std::string sensor;              ///< "rover/imu", or "imu" when only one robot has it
+  std::string reading;             ///< "angular_velocity"; empty: all readings that have errors
   std::optional<double> duration;  ///< s
   std::string picture;             ///< file (SVG), or empty
 };

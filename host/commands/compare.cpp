@@ -26,7 +26,7 @@ void check_files(const CompareOptions& options) {
                      : ""));
 }
 
-/// Once before the runs; each variation adds what it reads.
+/// Runs once before the runs; each variation adds the files that it reads.
 void check_outputs(const Comparison& comparison, Registry& registry) {
   Simulation empty(registry);
   for (const std::string& file : comparison.scenario.files) empty.outputs().add_input(file, "a file of the scenario");

@@ -29,7 +29,7 @@ std::vector<RecordFile> read_files(const std::vector<std::string>& names) {
   return files;
 }
 
-/// A simulation of the first variation, to look at.
+/// Returns a simulation of the first variation, for inspection.
 BuiltScenario build_first(const Comparison& comparison, const std::vector<Variation>& variations, Registry& registry) {
   return build(read_variation(comparison, variations.front().overrides, registry), registry,
                [](Simulation& simulation) {
@@ -38,7 +38,7 @@ BuiltScenario build_first(const Comparison& comparison, const std::vector<Variat
                });
 }
 
-/// Every variation on the commands of every record.
+/// Runs every variation on the commands of every record.
 int compare_with_joints(const CompareOptions& options, const std::vector<RecordFile>& files,
                         const Comparison& comparison, const std::vector<Variation>& variations, Registry& registry) {
   if (!options.sensor.empty() || options.known_map)
@@ -50,7 +50,7 @@ int compare_with_joints(const CompareOptions& options, const std::vector<RecordF
   const CurrentRun progress;
   Messages messages;
   std::vector<RecordDeviation> deviations;
-  Identification drawn;  // for the picture: errors over time, a panel a run
+  Identification drawn;  // for the picture: errors over time, one panel for each run
   for (const MotorRecord& r : records)
     for (const Variation& v : variations) {
       progress.show(v.label + " on " + r.name);
@@ -80,13 +80,13 @@ int compare_with_joints(const CompareOptions& options, const std::vector<RecordF
              : 1;
 }
 
-/// "scan.svg" for the first record, "scan_2.svg" for the second.
+/// Returns "scan.svg" for the first record, "scan_2.svg" for the second.
 std::string picture_of(const std::string& file, std::size_t record) {
   if (record == 0) return file;
   return fmt::format("{}_{}.svg", file.substr(0, file.size() - 4), record + 1);
 }
 
-/// The scanner of every variation beside every record.
+/// Compares the scanner of every variation with every record.
 int compare_with_scans(const CompareOptions& options, const std::vector<RecordFile>& files,
                        const Comparison& comparison, const std::vector<Variation>& variations, Registry& registry) {
   if (!options.joint.empty())
@@ -94,7 +94,7 @@ int compare_with_scans(const CompareOptions& options, const std::vector<RecordFi
   std::vector<ScanRecord> records;
   for (const RecordFile& f : files) records.push_back(parse_scan_record(f.text, f.name));
   scanner_to_compare(*build_first(comparison, variations, registry).simulation, options.sensor);
-  constexpr std::size_t fewest = 100, most = 2000;  // scans: so that those that are simulated tell enough
+  constexpr std::size_t fewest = 100, most = 2000;  // scans: enough simulated ones for the statistics
   std::size_t count = fewest;
   for (const ScanRecord& r : records) count = std::clamp(r.ranges.size(), count, most);
   const CurrentRun progress;

@@ -6,8 +6,8 @@
 
 namespace muro::host {
 
-/// Every variation beside every record of --against: those of a joint on its commands, those of a laser scanner by
-/// noise, mixed pixels and drop-outs. Returns the exit code.
+/// Compares every variation with every record of --against: records of a joint by running its commands, records of a
+/// laser scanner by noise, mixed pixels and drop-outs. Returns the exit code.
 int compare_against(const CompareOptions& options, const Comparison& comparison,
                     const std::vector<Variation>& variations, Registry& registry);
 

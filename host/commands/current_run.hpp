@@ -9,7 +9,7 @@
 
 namespace muro::host {
 
-/// The variation that runs, on one line of the terminal.
+/// Shows the variation that runs, on one line of the terminal.
 class CurrentRun {
  public:
   void show(const std::string& label) const {

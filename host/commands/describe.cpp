@@ -45,7 +45,7 @@ Json describe_property(const PropertyStore& store, const PropertyStore::NamedSlo
   return p;
 }
 
-/// All tasks in the order in which they would run if all were due at once.
+/// All tasks in the order in which they would run if all of them were due at the same time.
 Json describe_schedule(const Simulation& simulation) {
   const std::vector<Task>& tasks = simulation.scheduler().tasks();
   std::vector<TaskId> ids(tasks.size());

@@ -25,7 +25,7 @@ bool ends_with(const std::string& file, const std::string& end) {
   return file.size() > end.size() && file.compare(file.size() - end.size(), end.size(), end) == 0;
 }
 
-/// Before the search, which takes long.
+/// Called before the search, which takes long.
 void check_identify_files(const IdentifyOptions& o) {
   for (const std::string& file : o.reports)
     if (!ends_with(file, ".md") && !ends_with(file, ".json"))
@@ -60,7 +60,7 @@ std::optional<double> fraction_of(const std::vector<std::string>& validate) {
   return x;
 }
 
-/// Without those that are validated, however their paths are written: an error of what was fitted tells nothing.
+/// Leaves out the records for validation, however their paths are written: an error on fitted records proves nothing.
 std::vector<std::string> left_for_the_fit(const IdentifyOptions& o) {
   const auto is_validated = [&](const std::string& file) {
     return std::any_of(o.validate.begin(), o.validate.end(), [&](const std::string& other) {
@@ -74,7 +74,7 @@ std::vector<std::string> left_for_the_fit(const IdentifyOptions& o) {
   return left;
 }
 
-/// Moves the share `part` of the records, by chance, to the result.
+/// Moves the share `part` of the records, chosen at random, to the result.
 std::vector<MotorRecord> take_part(std::vector<MotorRecord>& records, double part, std::uint64_t seed) {
   const auto count = std::size_t(std::lround(part * double(records.size())));
   if (count == 0 || count >= records.size())
@@ -95,7 +95,7 @@ std::vector<MotorRecord> take_part(std::vector<MotorRecord>& records, double par
   return out;
 }
 
-/// The name of the motor; empty where no record says it. Records of several motors are refused.
+/// Returns the name of the motor; empty when no record gives it. Records of several motors are refused.
 std::string motor_of(const std::vector<const MotorRecord*>& records) {
   const MotorRecord* named = nullptr;
   for (const MotorRecord* r : records) {
@@ -108,7 +108,7 @@ std::string motor_of(const std::vector<const MotorRecord*>& records) {
   return named ? named->motor : "";
 }
 
-/// Records whose duties say another gain than that of the others keep theirs.
+/// Records whose duties give another gain than the others keep their own.
 void keep_recorded_gains(std::vector<MotorRecord>& records, double gain) {
   for (MotorRecord& r : records) {
     const double told = r.duty_gain > 0 ? 0 : recorded_gain({r});
@@ -121,8 +121,7 @@ void keep_recorded_gains(std::vector<MotorRecord>& records, double gain) {
   }
 }
 
-/// The firmware's gain and limit: of the command line, of each record, of the motor that they name, or of their duties.
-/// What each record has of its own, so that no other value is used: that of the first, which the report has.
+/// Returns the value of the first record when all records have one of their own; no other value is then used.
 std::optional<double> own_of_all(std::vector<MotorRecord>& records, double MotorRecord::*what, const char* name) {
   if (!std::all_of(records.begin(), records.end(), [&](const MotorRecord& r) { return r.*what > 0; })) return {};
   MotorRecord& first = records.front();
@@ -137,6 +136,7 @@ std::optional<double> own_of_all(std::vector<MotorRecord>& records, double Motor
   return first.*what;
 }
 
+/// Sets the firmware's gain and limit: from the command line, each record, the motor that they name, or their duties.
 void set_firmware(const IdentifyOptions& o, std::vector<MotorRecord>& fit, std::vector<MotorRecord>& validation,
                   FitSettings& s) {
   std::vector<const MotorRecord*> all;

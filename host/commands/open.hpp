@@ -6,12 +6,12 @@
 
 namespace muro::host {
 
-/// Reads a scenario; prints what is wrong with plugins to standard error.
+/// Reads a scenario; prints problems of plugins to standard error.
 Scenario open_file(const ScenarioOptions& options, const Registry& registry);
-/// Builds it; prints warnings and notes to standard error. `add_more`: as for build().
+/// Builds it; prints warnings and notes to standard error. `add_more`: as in build().
 BuiltScenario open_scenario(Scenario scenario, Registry& registry,
                             const std::function<void(Simulation&)>& add_more = {});
-/// Both, to be looked at: recorders and views are connected, but write and show nothing, and it cannot run.
+/// Reads and builds a scenario for inspection: recorders and views write and show nothing, and it cannot run.
 BuiltScenario look_at_scenario(const ScenarioOptions& options, Registry& registry);
 
 }  // namespace muro::host

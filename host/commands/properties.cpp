@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Names = std::vector<std::string>;
 
-/// The algorithms whose description lists the property among `uses`.
+/// Returns the algorithms whose description lists the property among `uses`.
 Names users_of(const Registry& registry, std::string_view property, Names CatalogEntry::*uses) {
   Names ids;
   for (const CatalogEntry& e : registry.catalog())

@@ -72,7 +72,7 @@ FreeCamera add_free_camera(const RenderOptions& options, Simulation& simulation)
   return camera;
 }
 
-/// The sensor object that holds the picture.
+/// Returns the sensor object that holds the picture.
 ObjectId camera_of(const RenderOptions& options, Simulation& simulation) {
   std::vector<std::string> cameras;
   for (const auto& instance : simulation.instances())
@@ -86,7 +86,7 @@ ObjectId camera_of(const RenderOptions& options, Simulation& simulation) {
                   cameras.empty() ? "; no robot has one that writes camera.image" : suggestion(name, cameras)));
 }
 
-/// The latest output of the camera as colours.
+/// Returns the latest output of the camera as colours.
 std::vector<std::uint8_t> picture_of(const World& world, ObjectId camera, const std::string& shows) {
   if (shows == "depth") return colors_of(world.values(camera, keys::camera_depth));
   if (shows == "labels") return colors_of(world.values(camera, keys::camera_labels));
@@ -109,7 +109,7 @@ void check_options(const RenderOptions& options, const Registry& registry) {
         "and build muro again");
 }
 
-/// Frames of a video from `begin` to `end` (s), both included.
+/// Number of frames of a video from `begin` to `end` (s), both included.
 std::int64_t frame_count(double begin, double end, double fps) {
   constexpr double most = 1e7;  // four days at 25 frames in a second
   const double frames = 1 + std::floor((end - begin) * fps + 1e-6);
@@ -120,7 +120,7 @@ std::int64_t frame_count(double begin, double end, double fps) {
                   frames, most));
 }
 
-/// The user has asked for the end: nothing is written.
+/// Thrown when the user has asked for the end: nothing is written.
 struct Interrupted {};
 
 /// Runs the scenario and takes pictures with one camera.
@@ -180,7 +180,7 @@ class Photographer {
   Simulation& simulation_;
   ObjectId camera_;
   FreeCamera* free_camera_;
-  double last_time_ = -std::numeric_limits<double>::infinity();  ///< s, of the last picture
+  double last_time_ = -std::numeric_limits<double>::infinity();  ///< s, time of the last picture
   std::uint32_t width_ = 0, height_ = 0;
 };
 
@@ -207,7 +207,7 @@ int render(const RenderOptions& options) {
   } catch (const Interrupted&) {
     return 130;
   } catch (const StepError&) {
-    if (Interrupt::pending()) return 130;  // ffmpeg, which Ctrl-C ends as well
+    if (Interrupt::pending()) return 130;  // ffmpeg has failed, because Ctrl-C ends it too
     throw;
   }
   return 0;

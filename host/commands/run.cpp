@@ -40,7 +40,7 @@ double pacing_factor(const std::string& speed) {
       fmt::format("--speed is `{}` but must be max, real or a factor from 1e-6 to 1e6, such as 0.5", speed));
 }
 
-/// One line on the terminal, at most five times a second.
+/// Shows progress on one line of the terminal, at most five times a second.
 class Progress {
  public:
   explicit Progress(double duration) : duration_(duration), shown_(isatty(STDERR_FILENO) != 0) {}
@@ -56,7 +56,7 @@ class Progress {
   }
 
  private:
-  /// At the mean speed so far, once that means something.
+  /// Estimates the remaining time from the mean speed so far, as soon as that is meaningful.
   std::string time_left(double simulated, double wall) const {
     if (wall < 1 || simulated <= 0 || !(duration_ > simulated)) return "";
     const double left = wall * (duration_ - simulated) / simulated;
@@ -71,7 +71,7 @@ class Progress {
   double last_ = 0;
 };
 
-/// What recorder.report has told: "referee/chair:score: [0] 2, [1] 1".
+/// Prints the properties that recorder.report has given: "referee/chair:score: [0] 2, [1] 1".
 void print_properties(const ReportedNumbers& told) {
   for (const auto& [section, all] : told.sections()) {
     if (section != "properties") continue;
@@ -120,14 +120,14 @@ void print_summary(const RunResult& result, const Simulation& simulation, const 
   if (late.overruns > 0) fmt::print("{} instants were late for the chosen speed\n", late.overruns);
 }
 
-/// Adds the recorder and the replay of inputs that the options ask for.
+/// Adds the recorder and the replay of inputs that the options request.
 void add_inputs(Scenario& scenario, const RunOptions& options) {
   const auto add = [&](const char* name, const char* use, const std::string& file) {
     if (file.empty()) return;
     std::error_code code;
     const std::string path = std::filesystem::absolute(file, code).string();
     Subsystem s;
-    s.name = fmt::format("{}_option", name);  // beside whatever the scenario calls its own
+    s.name = fmt::format("{}_option", name);  // differs from all names in the scenario
     s.use = use;
     s.rate = 10;
     s.location.file = fmt::format("--{} {}", name, message_text(file));
@@ -138,8 +138,8 @@ void add_inputs(Scenario& scenario, const RunOptions& options) {
   add("replay", "controller.replay", options.replay);
 }
 
-/// The scenario with a window, which sets the pace. Overrides of `algorithms.view` apply to it; a scenario that has a
-/// window of its own stays as it is.
+/// Returns the scenario with a window, which sets the pace. Overrides of `algorithms.view` apply to it. A scenario that
+/// has a window already is not changed.
 ScenarioOptions with_view(const RunOptions& options, const Registry& registry) {
   const auto& catalog = registry.catalog();
   if (std::none_of(catalog.begin(), catalog.end(), [](const CatalogEntry& e) { return e.id == "view.window"; }))
@@ -160,8 +160,8 @@ ScenarioOptions with_view(const RunOptions& options, const Registry& registry) {
   return scenario;
 }
 
-/// Runs to `end` (ns), with what is due at that time where `includes_end`, to an interrupt or to a failure. The error
-/// goes to `result`, because recorders complete their files and the report is written however a run ends.
+/// Runs to `end` (ns), to an interrupt or to a failure; if `includes_end`, also what is due at `end`. The error goes to
+/// `result`, because recorders complete their files and the report is written after any end of a run.
 void simulate(Simulation& simulation, std::int64_t end, bool includes_end, Odometer& odometer, RunResult& result) {
   Progress progress(1e-9 * double(end));
   SlowRun slow(simulation);
@@ -192,7 +192,7 @@ void simulate(Simulation& simulation, std::int64_t end, bool includes_end, Odome
   failures.guard([&] { simulation.finish(); });
 }
 
-/// Files first: what is printed may have nowhere to go.
+/// Writes files first: standard output may be closed.
 void write_outputs(const RunOptions& options, RunResult& result, const Simulation& simulation,
                    const Odometer& odometer) {
   Failures failures(result.error);
@@ -233,7 +233,7 @@ int run(const RunOptions& options) {
   try {
     write_outputs(options, result, simulation, odometer);
   } catch (const std::system_error&) {
-    if (!standard_output_failed()) throw;  // main tells of it
+    if (!standard_output_failed()) throw;  // main() reports it
   }
   if (!result.error.empty()) {
     fmt::print(stderr, "{}\n", result.error);

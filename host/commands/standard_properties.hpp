@@ -16,7 +16,7 @@ struct PropertyGroup {
   std::span<const KeyInfo* const> keys;
 };
 
-/// All of them, in the order of the vocabulary.
+/// All groups, in the order of the vocabulary.
 std::span<const PropertyGroup> standard_properties();
 
 }  // namespace muro::host

@@ -6,11 +6,11 @@
 
 namespace muro::host {
 
-/// Lets everything be tried that is left to do after a failure, and keeps what went wrong: the first cause first, a
-/// line for each, nothing twice.
+/// Carries out everything that remains to be done after a failure, and keeps the error texts: the first cause first,
+/// one line for each, each once.
 class Failures {
  public:
-  /// `text`: where they are kept; may hold one already.
+  /// `text`: receives the error texts; may hold one already.
   explicit Failures(std::string& text) : text_(text) {}
 
   template <class Work>

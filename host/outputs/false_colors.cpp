@@ -14,7 +14,7 @@ namespace {
 
 using Color = std::array<double, 3>;
 
-/// A colour map from dark blue to bright yellow with rising lightness; `x` in 0..1.
+/// A colour map from dark blue to bright yellow with rising lightness; `x` is in 0..1.
 Color color_map(double x) {
   constexpr Color stops[] = {{40, 15, 90}, {60, 80, 150}, {35, 145, 140}, {95, 200, 100}, {250, 230, 40}};
   const double at = (x > 0 ? std::min(x, 1.0) : 0) * (std::size(stops) - 1);
@@ -46,7 +46,7 @@ std::vector<std::uint8_t> colors_of(std::span<const float> depth) {
 std::vector<std::uint8_t> colors_of(std::span<const ObjectId> labels) {
   std::vector<std::uint8_t> rgb;
   for (const ObjectId label : labels) {
-    // hues that follow each other by the golden angle differ well
+    // hues at steps of the golden angle are easy to tell apart
     const double hue = 6 * std::fmod(0.618033988749895 * index_of(label), 1.0), rest = hue - std::floor(hue);
     const int sector = int(hue);
     const double up = 90 + 140 * rest, down = 230 - 140 * rest;

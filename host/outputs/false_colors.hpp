@@ -10,10 +10,10 @@
 
 namespace muro::host {
 
-/// sRGB: the nearest depth (m) is dark blue, the farthest bright yellow, in between by its logarithm; infinite depth is
-/// black.
+/// Returns sRGB: the nearest depth (m) is dark blue, the farthest is bright yellow, in between by its logarithm;
+/// infinite depth is black.
 std::vector<std::uint8_t> colors_of(std::span<const float> depth);
-/// sRGB: a colour for each object, the same in every picture; black where there is no object.
+/// Returns sRGB: one colour for each object, the same in every picture; black where there is no object.
 std::vector<std::uint8_t> colors_of(std::span<const ObjectId> labels);
 
 }  // namespace muro::host

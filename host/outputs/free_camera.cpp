@@ -15,19 +15,19 @@ namespace muro::host {
 
 namespace {
 
-constexpr double least_radius = 1.5;  ///< m, of what is seen
+constexpr double least_radius = 1.5;  ///< m, least radius of the view
 constexpr double moved = 0.1;         ///< m: a robot that is nearer to its start has not moved
-constexpr double clearance = 0.1;     ///< of the line of sight above the ground, by the radius of what is seen
-constexpr double slowness = 0.5;      ///< s, in which the camera makes good most of its distance to the team
+constexpr double clearance = 0.1;     ///< of the line of sight above the ground, relative to the radius of the view
+constexpr double slowness = 0.5;      ///< s, in which the camera covers most of its distance to the team
 
-/// The pose of a camera at `from` that looks at `to`, without roll.
+/// Returns the pose of a camera at `from` that looks at `to`, without roll.
 Pose looking(const Vec3& from, const Vec3& to) {
   const Vec3 forward = to - from;
   const double yaw = elementary::atan2(forward.y(), forward.x());
   return {from, from_rpy(0, -elementary::atan2(forward.z(), forward.head<2>().norm()), yaw)};
 }
 
-/// m: of a ball about the base that holds the visible shapes of the robot, wherever its joints are; meshes are points.
+/// Radius (m) of a ball about the base that holds the robot's visible shapes in any joint position; meshes are points.
 double radius_of(const World& world, const RobotView& robot) {
   std::vector<double> reach(robot.links.size());
   double radius = 0;
@@ -78,7 +78,7 @@ Vec3 FreeCamera::from() const {
   // a ball rolls over the hills along the line of sight, up to the robots, and the line is raised until it is clear
   const StandingShape ball{Shape::sphere(clearance * radius_), "", {}};
   double height = from.z();
-  constexpr int parts = 24;  // closer together than the ball is wide
+  constexpr int parts = 24;  // so the distance of two points is less than the ball's width
   for (int i = parts; i >= parts / 3; --i) {
     const double part = double(i) / parts;
     const auto ground =
@@ -89,7 +89,7 @@ Vec3 FreeCamera::from() const {
   return from;
 }
 
-/// Goes this part of the way to where the team is now; before the simulation is built, where it starts.
+/// Moves the target this part of the way to the team's present place; before the simulation is built, to its start.
 void FreeCamera::aim(double part) {
   const World& world = simulation_->world();
   Aabb of_all, of_moving;

@@ -11,27 +11,27 @@
 
 namespace muro::host {
 
-/// A camera that belongs to no robot. Where its position or what it looks at is not given, it follows the robots that
-/// move: those whose base is not where it was at the start, or all that can move while none has. A position of its own
-/// choice is above the ground, and so high that no hill is between it and them.
+/// A camera that belongs to no robot. When its position or its target point is not given, it follows the robots that
+/// move: those with a base that is not at its start, or all that can move while none has. When it chooses its position,
+/// that is above the ground, and so high that no hill is between it and the robots.
 class FreeCamera {
  public:
-  /// Adds the object `name`, whose pose it sets. Given points: m. Before the simulation is built.
+  /// Adds the object `name` and sets its pose. Given points: m. Call before the simulation is built.
   FreeCamera(Simulation& simulation, const char* name, const std::optional<Vec3>& from, const std::optional<Vec3>& to);
 
   ObjectId object() const { return object_; }
-  /// m, from the camera to the point that it looks at.
+  /// Distance (m) from the camera to its target point.
   double distance() const { return (from() - target_).norm(); }
 
-  /// Sets its pose for the present state. `dt`: s since the last time, by which it is slow to follow; infinite: at
-  /// once.
+  /// Sets its pose for the present state. `dt`: s since the last call; the camera follows with a lag. Infinite: it
+  /// follows at once.
   void look(double dt);
 
  private:
   struct Member {
     ObjectId base;
     Vec3 start;
-    double radius;  ///< m, of a ball about the base that holds the robot
+    double radius;  ///< m, radius of a ball about the base that holds the robot
   };
 
   /// The heightmaps of the scene.
@@ -46,12 +46,12 @@ class FreeCamera {
 
   Simulation* simulation_;
   std::optional<Vec3> given_from_, given_to_;
-  std::shared_ptr<Hills> hills_;  ///< null: there are none, or the position is given
+  std::shared_ptr<Hills> hills_;  ///< null: there are no hills, or the position is given
   std::vector<Member> team_;
   ObjectId object_ = no_object;
   Pose* pose_ = nullptr;
   Vec3 target_ = Vec3::Zero();  ///< the middle of the robots
-  double radius_ = 0;           ///< m, about the middle
+  double radius_ = 0;           ///< m, radius about the middle
 };
 
 }  // namespace muro::host

@@ -6,8 +6,8 @@
 
 namespace muro::host {
 
-/// As text, indented by two, or in one line where `indent` is -1. Names may be any bytes: what is no UTF-8 becomes
-/// U+FFFD, the replacement character.
+/// Returns `json` as text, indented by two, or on one line when `indent` is -1. Names may be any bytes: bytes that are
+/// not UTF-8 become U+FFFD, the replacement character.
 std::string json_text(const nlohmann::ordered_json& json, int indent = 2);
 
 }  // namespace muro::host

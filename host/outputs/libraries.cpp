@@ -9,7 +9,7 @@ namespace muro::host {
 
 namespace {
 
-/// Empty when the file cannot be read.
+/// Returns the SHA-256; empty when the file cannot be read.
 std::string sha256_of(const std::string& path) {
   char digits[SHA256_DIGEST_STRING_LENGTH];
   return SHA256File(path.c_str(), digits) ? digits : "";

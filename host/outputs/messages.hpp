@@ -9,11 +9,11 @@
 
 namespace muro::host {
 
-/// What a command says on standard error: each line once, however many simulations it runs.
+/// Messages of a command on standard error: each line once, even when it runs several simulations.
 class Messages {
  public:
   void say(const std::string& line);
-  /// A message of an algorithm: a sink for Simulation::set_log.
+  /// Prints a message of an algorithm; a sink for Simulation::set_log.
   void log(LogLevel level, std::string_view text);
 
  private:

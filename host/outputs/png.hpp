@@ -7,7 +7,7 @@
 
 namespace muro::host {
 
-/// The bytes of a PNG file. `rgb`: sRGB, rows from the top.
+/// Returns the bytes of a PNG file. `rgb`: sRGB, rows from the top.
 std::string png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgb);
 
 }  // namespace muro::host

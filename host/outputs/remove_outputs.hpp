@@ -6,8 +6,8 @@
 
 namespace muro::host {
 
-/// Takes recorders and views out of a scenario, also out of its sequences: for commands that write what they are asked
-/// for and nothing else.
+/// Removes recorders and views from a scenario, also from its sequences: for commands that write only the requested
+/// files.
 void remove_outputs(Scenario& scenario, const Registry& registry);
 
 }  // namespace muro::host

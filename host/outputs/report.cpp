@@ -25,7 +25,7 @@ double ms_per_simulated_s(const Simulation& s, std::size_t instance, double simu
   return simulated > 0 ? 1e3 * double(cost.ticks) * s.scheduler().seconds_per_tick() / simulated : 0;
 }
 
-/// The rate at which it is scheduled; in a sequence it may differ from that of the scenario.
+/// Returns the scheduled rate; in a sequence it may differ from the rate in the scenario.
 Rate rate_of(const Simulation& s, std::size_t instance) { return s.scheduler().tasks()[s.task_of(instance)].rate; }
 
 /// Whether the same state, parameters and seed always give the same results.
@@ -59,7 +59,7 @@ Json robots_report(const Simulation& simulation, const Odometer& odometer) {
   return all;
 }
 
-/// Bins up to the last one that counts something.
+/// Reports the bins up to the last one that is not 0.
 Json pacing_report(const Lateness& late) {
   Json histogram = Json::array();
   std::size_t last = Lateness::bins;
@@ -91,14 +91,14 @@ Json algorithms_report(const RunResult& run, const Simulation& simulation) {
   return all;
 }
 
-/// Whole numbers without a point, as far as they are exact.
+/// Whole numbers have no decimal point, as long as they are exact.
 Json json_number(double value) {
   constexpr double exact = 9007199254740992;  // 2^53
   if (std::abs(value) < exact && value == std::floor(value)) return std::int64_t(value);
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-/// What algorithms have told: a section each, of a map for everything that has a name. No section of the host's own.
+/// Adds the numbers of algorithms: a section of maps, one for each name. Sections of the host itself are not changed.
 void add_numbers(const ReportedNumbers& told, Json& out) {
   for (const auto& [section, all] : told.sections()) {
     if (out.contains(section)) continue;

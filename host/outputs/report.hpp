@@ -17,15 +17,15 @@ struct RunResult {
   double simulated = 0;  ///< s
   double wall = 0;       ///< wall-clock time, s
   bool interrupted = false;
-  std::string error;  ///< why it ended early, or empty
+  std::string error;  ///< reason of an early end, or empty
 };
 
-/// The ids of the algorithms that do not declare the capability `deterministic`: with one of them, two runs of one
-/// scenario may end in different states.
+/// Returns the ids of the algorithms that do not declare the capability `deterministic`: with one of them, two runs of
+/// one scenario may end in different states.
 std::vector<std::string> nondeterministic_algorithms(const Simulation& simulation);
 
 nlohmann::ordered_json report(const RunResult& run, const Simulation& simulation, const Odometer& odometer);
-/// The cost of each algorithm as a table.
+/// Returns the cost of each algorithm as a table.
 std::string profile(const RunResult& run, const Simulation& simulation);
 
 }  // namespace muro::host

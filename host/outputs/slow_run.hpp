@@ -7,16 +7,16 @@
 
 namespace muro::host {
 
-/// Tells once that a run falls far behind real time: which algorithm takes the time, and what to do.
+/// Reports once that a run falls far behind real time: names the algorithm that takes the time, and a remedy.
 class SlowRun {
  public:
-  static constexpr double slow = 0.1;    ///< simulated seconds in a second of the wall clock
+  static constexpr double slow = 0.1;    ///< simulated seconds per second of the wall clock
   static constexpr double patience = 5;  ///< s of the wall clock, after which a run is judged
 
   explicit SlowRun(const Simulation& simulation) : simulation_(simulation) {}
 
-  /// To be asked now and then, at `wall` s of the run. Empty when there is nothing to tell. A run that waits, for its
-  /// pace or for a user, is not slow.
+  /// Returns a message when the run is slow, else an empty text; to be called now and then, at `wall` s of the run. A
+  /// run that waits, for its pace or for a user, is not slow.
   std::string note(double wall);
 
  private:

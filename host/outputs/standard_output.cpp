@@ -15,7 +15,7 @@ namespace muro::host {
 void keep_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) >= 0) continue;
-    // Of input and output the wrong way round, so that to read or print fails as before. Notes may be lost.
+    // The wrong direction of input and output, so that reading or printing fails as before. Notes may be lost.
     const int opened = open("/dev/null", stream == STDOUT_FILENO ? O_RDONLY : O_WRONLY);
     if (opened != stream && opened >= 0) close(opened);
   }
@@ -27,7 +27,7 @@ int close_standard_output(int exit_code) {
   const bool failed_before = standard_output_failed();
   errno = 0;
   if (std::fflush(stdout) == 0 && !failed_before) return exit_code;
-  // What failed before gives its reason when it is tried again.
+  // A second try gives the reason of an earlier failure.
   if (errno == 0) {
     std::clearerr(stdout);
     std::fputc('\n', stdout);

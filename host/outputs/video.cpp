@@ -13,14 +13,14 @@ namespace muro::host {
 
 namespace {
 
-/// Quoted as one argument of a shell command.
+/// Returns the text quoted as one argument of a shell command.
 std::string shell_argument(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
 }
 
-/// What `work` returns; its errors are those of a run.
+/// Returns the result of `work`; its errors become errors of the run.
 template <class Work>
 auto guarded(Work work) {
   try {
@@ -60,7 +60,7 @@ Video::~Video() {
 }
 
 void Video::fail() {
-  // ffmpeg tells its own reason when its input ends
+  // ffmpeg prints its own reason when its input ends
   if (pipe_) pclose(pipe_);
   pipe_ = nullptr;
   throw StepError(fmt::format("the video {} cannot be written; ffmpeg has printed the reason above", file_.path()));

@@ -10,13 +10,13 @@
 
 namespace muro::host {
 
-/// Throws SetupError, with the known formats, when the extension of the name is none of them.
+/// Throws SetupError with the known formats when the extension of the name is not one of them.
 void check_video_format(const std::string& path);
 
-/// A video file that ffmpeg encodes from frames; it appears under its name when it is complete.
+/// A video file that ffmpeg encodes from frames; it gets its name when it is complete.
 class Video {
  public:
-  /// Throws SetupError where there is no ffmpeg, StepError when the file cannot be made.
+  /// Throws SetupError when there is no ffmpeg, StepError when the file cannot be created.
   Video(const std::string& path, std::uint32_t width, std::uint32_t height, double frames_per_second);
   /// Removes a file that was not closed.
   ~Video();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// _exit() and _Exit() of the program: libraries that it loads find these before those of the C library.
+// _exit() and _Exit() of the program: loaded libraries find these before those of the C library.
 #include <unistd.h>
 
 #include <cstdlib>

@@ -27,7 +27,7 @@ constexpr CrashSignal crash_signals[] = {{SIGSEGV, "SIGSEGV", "invalid memory ac
 std::array<struct sigaction, std::size(crash_signals)> previous_actions;  // a sanitizer's own, or the default
 std::atomic<pid_t> crashing_thread{0};
 
-/// Memory for a handler's stack: that of a thread that has used up its own is of no use.
+/// Memory for a handler's stack: when a thread has used up its own stack, that one cannot be used.
 class HandlerStack {
  public:
   HandlerStack() {
@@ -82,7 +82,7 @@ void write_line(const CrashSignal& signal, const siginfo_t& info) {
   line.write_to(STDERR_FILENO);
 }
 
-/// Puts the disposition from before back and lets the signal come again, as if nothing had been in its way.
+/// Restores the earlier disposition and lets the signal come again, as if it had not been handled.
 void die_by(std::size_t which, const siginfo_t& info) {
   sigaction(crash_signals[which].number, &previous_actions[which], nullptr);
   const bool is_fault = info.si_code > 0;  // the instruction fails again when the handler returns
@@ -113,13 +113,13 @@ void write_stack() {
 
 void report_crashes() {
   void* frame = nullptr;
-  backtrace(&frame, 1);  // loads what it needs, which is no matter for a handler
+  backtrace(&frame, 1);  // loads what it needs, which a handler must not do
   set_thread_hook(give_stack_to_thread);
   struct sigaction action {};
   action.sa_sigaction = handle_crash;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK;
   sigemptyset(&action.sa_mask);
-  sigaddset(&action.sa_mask, SIGPIPE);  // nobody may be reading what is written
+  sigaddset(&action.sa_mask, SIGPIPE);  // the reader of standard error may have left
   for (const CrashSignal& s : crash_signals) sigaddset(&action.sa_mask, s.number);
   for (std::size_t i = 0; i < std::size(crash_signals); ++i)
     sigaction(crash_signals[i].number, &action, &previous_actions[i]);

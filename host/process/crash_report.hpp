@@ -3,14 +3,14 @@
 
 namespace muro::host {
 
-/// From now on a signal by which the process dies (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) first writes one line to
-/// standard error: the algorithm, robot, library and simulated time at which its thread is; behind it the stack of
-/// calls. The process then dies by that signal, as it would have. For the program alone: a process that embeds muro has
-/// handlers of its own.
+/// Makes signals that end the process (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) write one line to standard error
+/// first: algorithm, robot, library and simulated time of the thread's present call. The stack of calls follows. Then
+/// the process ends by that signal, as without this function. For the program only: a process that embeds muro has its
+/// own handlers.
 void report_crashes();
 
-/// Writes the stack of calls of this thread to standard error. May be called in signal handlers once report_crashes has
-/// been.
+/// Writes the stack of calls of this thread to standard error. May be called in signal handlers after report_crashes
+/// was called.
 void write_stack();
 
 }  // namespace muro::host

@@ -15,9 +15,9 @@ namespace muro::host {
 
 namespace {
 
-std::atomic<pid_t> guarded_process{0};  // a process that a library has forked may exit as it likes
+std::atomic<pid_t> guarded_process{0};  // a process that a library has forked may call exit()
 
-/// `what`: it has done.
+/// Reports an end of the process. `what`: the caller's action.
 void check(const char* what) {
   if (guarded_process.load() != getpid()) return;
   SignalText line;

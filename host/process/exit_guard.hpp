@@ -3,8 +3,8 @@
 
 namespace muro::host {
 
-/// While it lives, the process does not end with success by somebody's exit(), quick_exit() or, in the program `muro`,
-/// _exit(): a line says whose, and the exit code is 1. System calls are out of its reach.
+/// While an object lives, no exit(), quick_exit() or, in the program `muro`, _exit() of a library can end the process
+/// with success: a line names the caller, and the exit code is 1. It does not see system calls.
 class ExitGuard {
  public:
   ExitGuard();
@@ -12,12 +12,12 @@ class ExitGuard {
   ExitGuard(const ExitGuard&) = delete;
   ExitGuard& operator=(const ExitGuard&) = delete;
 
-  /// Has it look before what libraries that were loaded by now do at an exit. Without effect where there is no guard.
+  /// Makes the guard run before the exit functions of the libraries that were loaded so far. No effect without a guard.
   static void renew();
 
-  /// Ends the process as _exit() does, whoever guards it.
+  /// Ends the process as _exit() does, also with a guard.
   [[noreturn]] static void leave(int code);
-  /// The same for a library, if nobody guards the process.
+  /// Ends the process for a library, unless there is a guard.
   [[noreturn]] static void leave_for_others(int code);
 };
 

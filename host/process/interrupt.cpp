@@ -14,7 +14,7 @@ namespace muro::host {
 namespace {
 
 constexpr int interrupts[] = {SIGINT, SIGTERM, SIGHUP};
-std::array<struct sigaction, std::size(interrupts)> dispositions_before;  // from before
+std::array<struct sigaction, std::size(interrupts)> dispositions_before;
 std::atomic<int> signals_received{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
@@ -42,7 +42,7 @@ Interrupt::Interrupt() {
   signals_received = 0;
   struct sigaction action {};
   action.sa_handler = receive;
-  action.sa_flags = SA_RESTART;  // what plugins read and write goes on
+  action.sa_flags = SA_RESTART;  // reading and writing of plugins goes on
   sigemptyset(&action.sa_mask);
   for (std::size_t i = 0; i < std::size(interrupts); ++i) {
     sigaction(interrupts[i], nullptr, &dispositions_before[i]);

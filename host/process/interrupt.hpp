@@ -3,8 +3,8 @@
 
 namespace muro::host {
 
-/// While it lives, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP asks for a clean end, and the second ends the process
-/// at once, by that signal, with a line that says which call did not return. One at a time.
+/// While an object lives, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP requests a clean end. The second ends the
+/// process at once, by that signal, with a line that names the call which did not return. Only one object at a time.
 class Interrupt {
  public:
   Interrupt();
@@ -12,7 +12,7 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  /// Whether the end is asked for. [any thread]
+  /// Whether the end is requested. [any thread]
   static bool pending();
 };
 

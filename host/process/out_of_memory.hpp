@@ -5,8 +5,8 @@ namespace muro::host {
 
 inline constexpr const char* lack_of_memory = "the scene needs more memory than there is; make it smaller";
 
-/// From now on a call that may throw nothing, and for which there is no memory, ends the program with a line that says
-/// so and exit code 2, as one does that may throw. For the program alone.
+/// Makes a lack of memory in a call that cannot throw end the program, with a line that says so and exit code 2, as in
+/// a call that throws. For the program only.
 void report_lack_of_memory();
 
 }  // namespace muro::host

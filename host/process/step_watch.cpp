@@ -20,9 +20,9 @@ namespace muro::host {
 namespace {
 
 constexpr int looks_per_timeout =
-    20;  // in which the same call must be seen; a process that was stopped for a while has seen it once
+    20;  // observations of the same call that are needed; a process that was stopped for a while has only one
 
-/// What tells one call from another: where it is in the run.
+/// The position of a call in the run, which distinguishes it from others.
 struct Seen {
   const Callee* callee = nullptr;
   std::int64_t time = 0;
@@ -38,7 +38,7 @@ Seen step_of(const RunningCall& call) {
   return call.thread.load() != 0 && counts ? seen : Seen{};
 }
 
-/// Shows where the thread is, from within, and gives it a moment for that.
+/// Makes the thread print its own stack, and waits a moment for that.
 void show_stack_of(const RunningCall& call) {
   const int number = SIGRTMIN + 7;
   struct sigaction action {};

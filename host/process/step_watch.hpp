@@ -8,11 +8,11 @@
 namespace muro::host {
 
 /// Ends the process, with exit code 1, when a step takes too long: one line names algorithm, robot, library and
-/// simulated time, and the stack of calls is shown. Steps of algorithms that run alone, such as a window that pauses,
-/// may take as long as they like.
+/// simulated time, and the stack of calls is printed. Steps of algorithms that run alone, such as a window that pauses,
+/// may take any time.
 class StepWatch {
  public:
-  /// `timeout`: s of wall-clock time; 0 or less: it does nothing.
+  /// `timeout`: s of wall-clock time; 0 or less: no watch.
   explicit StepWatch(double timeout);
   ~StepWatch();
   StepWatch(const StepWatch&) = delete;

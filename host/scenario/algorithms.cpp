@@ -81,7 +81,7 @@ void Algorithms::add(const Subsystem& s, const std::string& name, std::vector<It
   setup.items = std::move(items);
   setup.place = s.location.text();
   const std::filesystem::path file(s.location.in_file() ? s.location.file : scenario_.file);
-  std::error_code deleted;  // the working directory may be gone; then the scenario has an absolute path
+  std::error_code deleted;  // the working directory may not exist any more; then the scenario has an absolute path
   setup.folder = std::filesystem::absolute(file, deleted).parent_path().string();
   setup.phase = std::llround(s.phase.value_or(0) * 1e9);
   setup.rate = rate_of(s, info_of(d->kind));
@@ -160,7 +160,7 @@ void Algorithms::add_defaults() {
   const auto is_written = [&](const char* property) {
     return std::any_of(used_.begin(), used_.end(), [&](const std::string& id) {
       const CatalogEntry& entry = registry_.find(id);
-      if (entry.kind == name_of(Kind::drive)) return false;  // it serves robots, and no scene
+      if (entry.kind == name_of(Kind::drive)) return false;  // it serves robots, not a scene
       return std::find(entry.writes.begin(), entry.writes.end(), property) != entry.writes.end();
     });
   };
@@ -174,7 +174,7 @@ void Algorithms::add_defaults() {
 
 void Algorithms::add_sequence(const std::vector<Name>& sequence) {
   std::vector<std::size_t> numbers;
-  const Added* first = nullptr;  // of those that have a rate
+  const Added* first = nullptr;  // the first algorithm with a rate
   for (const Name& name : sequence) {
     const auto named = added_.find(name.text);
     if (named == added_.end()) {

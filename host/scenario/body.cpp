@@ -19,7 +19,7 @@ Inertia homogeneous_inertia(const Shape& s, double mass) {
       set_axisymmetric(mass * (3 * r * r + l * l) / 12, mass * r * r / 2);
       break;
     case ShapeKind::capsule: {
-      const double cylinder = r * r * l, caps = 4.0 / 3 * r * r * r;  // volumes, over pi
+      const double cylinder = r * r * l, caps = 4.0 / 3 * r * r * r;  // volumes, divided by pi
       const double mc = mass * cylinder / (cylinder + caps), mh = mass - mc;
       set_axisymmetric(mc * (3 * r * r + l * l) / 12 + mh * (0.4 * r * r + l * l / 4 + 3.0 / 8 * l * r),
                        mc * r * r / 2 + mh * 0.4 * r * r);

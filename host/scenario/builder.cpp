@@ -73,7 +73,7 @@ class SceneBuilder {
     return p.kind == Placement::Kind::grid ? std::size_t(p.columns) * std::size_t(p.rows) : p.poses.size();
   }
 
-  /// What everything else stands on, wherever it comes in the scenario: first what has no ground, then floors.
+  /// Finds the surfaces on which all other objects stand, in any order: first those without ground, then floors.
   void find_terrain() {
     terrain_.add_scenery(world_);
     for (const bool floors : {false, true})
@@ -91,7 +91,7 @@ class SceneBuilder {
       std::vector<Pose>& poses = poses_of_terrain_[&o];
       poses = place(o.placement, int(count_of(o.placement)), body_of(o, 0), scenario_.places, unused);
       for (const Pose& pose : poses) terrain_.add(o.shape, o.mesh, pose);
-    } catch (const SetupError&) {  // told when the object is added
+    } catch (const SetupError&) {  // reported when the object is added
       poses_of_terrain_.erase(&o);
     }
   }
@@ -101,7 +101,7 @@ class SceneBuilder {
     return {o.name, standing_on_terrain({{o.shape, o.mesh, {}}}), radius};
   }
 
-  /// The height of what has these shapes; not called after this has gone.
+  /// Returns the height of a body with these shapes; must not be called after this object has ended.
   std::function<double(const Pose&)> standing_on_terrain(std::vector<StandingShape> shapes) {
     return [this, on = std::move(shapes)](const Pose& at) { return terrain_.height(on, at); };
   }
@@ -129,7 +129,7 @@ class SceneBuilder {
     }
   }
 
-  /// Bodies of robots move, and heightmaps do not.
+  /// Refuses heightmaps of robots: their bodies move, and heightmaps do not.
   static void refuse_heightmaps(const RobotTree& tree) {
     if (const std::string link = link_with_heightmap(tree); !link.empty())
       throw SetupError(
@@ -147,7 +147,7 @@ class SceneBuilder {
   RobotTree read_model_of(const RobotTemplate& t) {
     if (t.shape) return single_body(*t.shape, t.mesh, t.texture, inertia_of(t));
     RobotTree tree = t.from_world ? world_file_.model(t) : simulation_.read_model(t.model);
-    if (!t.from_world)  // what is told of a world's models is told already
+    if (!t.from_world)  // messages about models of a world are reported already
       for (const auto& p : tree.problems()) out_.note(t.model, p);
     if (t.from_world)
       unreadable_meshes_.leave_out(tree, scenario_.world_file->path, t.name + ".");
@@ -165,7 +165,7 @@ class SceneBuilder {
     return stretched_inertia(*solid, t.shape->size, t.mass);
   }
 
-  /// Whether it matters how large what is placed so is.
+  /// Whether the extent of a body matters for this placement.
   bool needs_extent(const Placement& p) const {
     const auto has_random = [](const RobotTemplate& t) { return t.placement.kind == Placement::Kind::random; };
     return std::any_of(p.poses.begin(), p.poses.end(), [](const PoseInput& pose) { return !pose.z; }) ||
@@ -177,7 +177,7 @@ class SceneBuilder {
     return [this](const std::string& path) { return meshes_.of(path); };
   }
 
-  /// What the robots of a template have in common, and their poses.
+  /// Common data of the robots of a template, and their poses.
   struct Model {
     std::optional<RobotTree> tree;
     StartPose start;
@@ -193,7 +193,7 @@ class SceneBuilder {
         comma_separated(start.clamped)));
   }
 
-  /// Robots with given poses come first, so that random ones keep clear of all of them.
+  /// Adds all robots. Those with given poses come first, so that random ones keep their distance to all of them.
   void add_all_robots() {
     std::vector<Model> models(scenario_.robots.size());
     for (const bool random : {false, true})
@@ -239,7 +239,7 @@ class SceneBuilder {
     return poses;
   }
 
-  /// Trees that differ from that of the template by the materials of variants, by these.
+  /// Trees that differ from that of the template by the materials of variants; the keys are lists of variants.
   using RecoloredTrees = std::map<std::vector<std::size_t>, RobotTree>;
 
   const RobotTree& tree_of_copy(std::size_t copy, const RobotTemplate& t, const Model& m, RecoloredTrees& recolored) {
@@ -269,7 +269,7 @@ class SceneBuilder {
       for (const Subsystem& s : t.subsystems[i])
         if (s.shadow) shadows_.push_back({&t, &*m.tree, &m.start, poses[i], &robot, s.shadow.get()});
       if (subsystems_.add(t, robot, t.subsystems[i])) continue;
-      world_.set(robot.base(), keys::pose, poses[i]);  // without a motion the robot is parked
+      world_.set(robot.base(), keys::pose, poses[i]);  // a robot without a motion does not move
       world_.set(robot.base(), keys::twist, Twist{});
     }
   }
@@ -287,7 +287,7 @@ class SceneBuilder {
   std::map<const SceneryObject*, std::vector<Pose>> poses_of_terrain_;
   WorldFileContents world_file_;
   Occupancy occupied_;
-  std::map<std::pair<std::string, std::uint64_t>, int> drawn_;  ///< copies at random, by place and seed
+  std::map<std::pair<std::string, std::uint64_t>, int> drawn_;  ///< copies with random poses, by place and seed
   std::vector<ShadowSetup> shadows_;
 };
 
@@ -298,7 +298,7 @@ void print_line(LogLevel level, std::string_view text) {
   fmt::print(stderr, "{}: {}\n", severity, text);
 }
 
-/// Where the scenario says where the robot of a body is; empty: nowhere.
+/// Returns the location in the scenario that places the robot of a body; empty: there is none.
 std::string place_of_robot(const BuiltScenario& built, const std::string& body) {
   const World& world = built.simulation->world();
   const ObjectId object = world.find_object(body);

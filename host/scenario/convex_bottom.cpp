@@ -10,14 +10,14 @@ namespace muro::host {
 
 namespace {
 
-constexpr double steepness = 100;  ///< of the continuation beside a shape
+constexpr double steepness = 100;  ///< of the continuation outside of a shape
 constexpr double hair = 1e-7;      ///< m
 constexpr std::size_t most_bounds = 16'384;
 
 double cross(const Vec3& a, const Vec3& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The maximum (m) over a segment of its height above the bottom, which is a concave function (golden section). Less
-/// than all numbers where it is beside the shape.
+/// Maximum (m), over a segment, of its height above the bottom, which is a concave function (golden section). Minus
+/// infinity when the segment is outside of the shape.
 double highest_above(const ConvexBottom& bottom, const Vec3& a, const Vec3& b) {
   double most = -std::numeric_limits<double>::infinity();
   const auto above = [&](double t) {
@@ -26,7 +26,7 @@ double highest_above(const ConvexBottom& bottom, const Vec3& a, const Vec3& b) {
     if (height <= bottom.high(2)) most = std::max(most, p.z() - height);
     return p.z() - height;
   };
-  double low = 0, high = 1;  // of the part over or under the box around the shape
+  double low = 0, high = 1;  // range of the part over or under the box around the shape
   for (int axis = 0; axis < 2; ++axis) {
     const double way = b[axis] - a[axis];
     double first = (bottom.low(axis) - a[axis]) / way, last = (bottom.high(axis) - a[axis]) / way;
@@ -93,8 +93,8 @@ Vec3 ConvexBottom::furthest_in_shape(const Vec3& d) const {
   return Vec3::Zero();
 }
 
-/// The lower hull over a point, by a simplex method: of three points of the shape whose triangle holds it, one is
-/// replaced by the point that is furthest below their plane, until there is none. The first three stand high around it.
+/// Height of the lower hull at a point, by a simplex method: three points of the shape form a triangle over it;
+/// the point furthest below their plane replaces one, until there is none. The first three are high around the shape.
 double ConvexBottom::height(double x, double y) const {
   const Vec3 q(x, y, 0), middle = 0.5 * (low_ + high_);
   const double far = 4 * (high_ - low_).norm() + hair, top = high_.z() + steepness * far;
@@ -124,8 +124,8 @@ double ConvexBottom::height(double x, double y) const {
   return found;
 }
 
-/// The rise is the maximum of a function that is concave over each triangle. Where a plane through the triangle would
-/// touch the shape within it, that is the maximum; else it is on an edge.
+/// The rise is the maximum of a function that is concave over each triangle. If the triangle's plane would touch the
+/// shape within the triangle, the maximum is there; otherwise it is on an edge.
 void RiseAbove::add(const Triangle& t) {
   const Vec3 across = (t[1] - t[0]).cross(t[2] - t[0]);
   if (!(across.z() > 1e-9 * across.norm())) return;
@@ -153,10 +153,10 @@ std::optional<double> RiseAbove::rise() {
   return most_;
 }
 
-/// Of the triangles so far.
+/// Checks the edges and corners of the triangles so far.
 void RiseAbove::look_at_edges() {
   std::sort(bounds_.begin(), bounds_.end(), [](const Bound& a, const Bound& b) { return a.rise > b.rise; });
-  for (const Bound& bound : bounds_) {  // on rough ground it is a peak, after which few triangles are left
+  for (const Bound& bound : bounds_) {  // on rough ground the first is a peak, and few triangles remain after it
     if (bound.rise <= most_ + hair) break;
     for (const Vec3& corner : bound.triangle) {
       if (corner.z() - bottom_.low(2) <= most_ || !bottom_.is_near(corner)) continue;

@@ -26,7 +26,7 @@ HeightmapFiles::File HeightmapFiles::read(const std::string& path) {
       file.problem = fmt::format("{} is no heightmap", path);
   } catch (const SetupError& e) {
     file.problem = e.what();
-    const std::string begin = "model " + path + ": ";  // whose reader names the file, too
+    const std::string begin = "model " + path + ": ";  // the reader names the file already
     if (file.problem.starts_with(begin)) file.problem.erase(0, begin.size());
   }
   return file;

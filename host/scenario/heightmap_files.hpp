@@ -10,13 +10,13 @@
 
 namespace muro::host {
 
-/// What placement knows of the files of heightmaps: each is read once, by the reader for its type (reader.heightmap).
+/// Files of heightmaps, for placement: each is read once, by the reader for its type (reader.heightmap).
 class HeightmapFiles {
  public:
   explicit HeightmapFiles(Simulation& simulation) : simulation_(simulation) {}
 
-  /// A view of the file's values, valid as long as this lives. Throws SetupError when the file cannot be read, or is no
-  /// heightmap.
+  /// Returns a view of the file's values, valid while this object lives. Throws SetupError when the file cannot be
+  /// read, or is no heightmap.
   Heightmap of(const std::string& path, const Vec3& size);
 
  private:

@@ -7,7 +7,7 @@ namespace muro::host {
 
 namespace {
 
-/// Whether the model says where a joint is at the start.
+/// Whether the model gives a start position for the joint.
 bool has_start(const World& world, ObjectId joint) {
   return joint != no_object && world.find_constant(joint, keys::initial_joint_position);
 }

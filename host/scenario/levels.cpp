@@ -13,7 +13,7 @@ namespace muro::host {
 
 namespace {
 
-/// The motions, by the names of their levels.
+/// Returns the motions, in the order of their levels; `names` gets the names of the levels.
 std::vector<Subsystem> read_motions(const std::string& name, const Node& levels, const std::string& owner,
                                     const std::string& what, std::vector<std::string>& names, Problems& problems) {
   std::vector<Subsystem> all;
@@ -31,11 +31,11 @@ std::vector<Subsystem> read_motions(const std::string& name, const Node& levels,
   return all;
 }
 
-/// Runs in a second of level.rules, by default: as fast as a controller may write `motion.level.target` where there is
-/// only `dwell`, which counts from the run that sees a change.
+/// Default rates (Hz) of level.rules. With `dwell` only, it is the fastest rate at which a controller may write
+/// `motion.level.target`, because `dwell` counts from the run that sees a change.
 constexpr double rules_rate = 100, dwell_rate = 1000;
 
-/// The algorithm that chooses the level, or has it stay for a while.
+/// Returns the algorithm that chooses the level, or makes it stay for a while.
 Subsystem read_rules(const std::string& name, MapReader& map) {
   Subsystem s;
   s.name = name + ".rules";

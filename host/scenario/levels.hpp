@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot that is handed over between several motions, its levels of detail:
+// Levels of detail of a robot that is handed over between several motions:
 //
 //     motion:
 //       levels: {far: {use: motion.point}, near: {use: motion.ode}}
@@ -18,7 +18,7 @@ namespace muro::host {
 /// Whether the subsystem lists levels.
 bool has_levels(const Node& node);
 
-/// A subsystem for each level, and one for the rules if there are any.
+/// Returns a subsystem for each level, and one for the rules if there are any.
 std::vector<Subsystem> read_levels(const std::string& name, const Node& node, const std::string& owner,
                                    Problems& problems);
 

@@ -13,9 +13,9 @@ namespace muro::host {
 
 namespace {
 
-constexpr double largest_number = 1e15;  // where no other range is given
+constexpr double largest_number = 1e15;  // limit when no other range is given
 
-/// For messages; `{:g}` prints numbers with six digits.
+/// Returns the range for messages; `{:g}` prints numbers with six digits.
 std::string range_text(double min, double max) {
   if (std::isfinite(min) && std::isfinite(max)) return fmt::format(" from {:g} to {:g}", min, max);
   if (std::isfinite(min)) return fmt::format(" of at least {:g}", min);

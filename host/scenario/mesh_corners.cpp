@@ -40,7 +40,7 @@ const MeshCorners::Body& MeshCorners::body_of(const std::string& path) {
     body.is_broken = false;
   } catch (const SetupError& e) {
     body.problem = e.what();
-    const std::string beginning = "model " + path + ": ";  // it is no model that is read here
+    const std::string beginning = "model " + path + ": ";  // the file is not a model
     if (body.problem.starts_with(beginning)) body.problem.erase(0, beginning.size());
   }
   return body;

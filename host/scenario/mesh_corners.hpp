@@ -11,22 +11,22 @@
 
 namespace muro::host {
 
-/// What placement knows of mesh files: each is read once, by the reader for its type (reader.mesh).
+/// Mesh files, for placement: each is read once, by the reader for its type (reader.mesh).
 class MeshCorners {
  public:
   explicit MeshCorners(Simulation& simulation) : simulation_(simulation) {}
 
-  /// The corners (m) of the convex hull of the file's mesh. Empty where it cannot be read: what collides with it
-  /// reports that.
+  /// Returns the corners (m) of the convex hull of the file's mesh. Empty when it cannot be read: the algorithm that
+  /// uses it for collisions reports that.
   std::span<const Vec3> of(const std::string& path);
-  /// The inertia of the body that the file describes, solid and with the density of water; none where it is flat or
+  /// Returns the inertia of the body in the file, solid and with the density of water; nothing when it is flat or
   /// cannot be read.
   std::optional<Inertia> inertia_of(const std::string& path);
-  /// Why the file cannot be read; empty where it can.
+  /// Returns why the file cannot be read; empty when it can.
   const std::string& problem_of(const std::string& path) { return body_of(path).problem; }
   /// Whether a reader knows the type of the file and cannot read it. Algorithms may know other types.
   bool is_broken(const std::string& path) { return body_of(path).is_broken; }
-  /// The box around a shape that stands at `pose`. `mesh`: the path of a mesh's file.
+  /// Returns the box around a shape at `pose`. `mesh`: path of the file, for a mesh.
   Aabb bounds_of(const Shape& shape, const std::string& mesh, const Pose& pose);
 
  private:

@@ -15,7 +15,7 @@ namespace muro::host {
 
 namespace {
 
-/// Parameters of motions with position drives: lists of "joint=gain"; a number.
+/// Parameters of motions with position drives: two lists of "joint=gain", and a number.
 constexpr std::string_view stiffness = "stiffness", damping = "damping", natural_frequency = "natural_frequency";
 
 constexpr std::pair<const Parameter*, DriveMode> lists[] = {{&velocity_joints, DriveMode::velocity},
@@ -42,11 +42,11 @@ bool is_named(const Subsystem& s, const std::string& joint) {
   return false;
 }
 
-/// What drives a joint of a model.
+/// The drive of a joint in a model.
 struct ModelDrive {
   std::string joint;
   DriveMode mode = DriveMode::passive;
-  std::optional<double> stiffness{}, damping{};  ///< of a joint that follows positions
+  std::optional<double> stiffness{}, damping{};  ///< for a joint that follows positions
 };
 
 template <class T>
@@ -78,7 +78,7 @@ void append(Subsystem& s, std::string_view list, std::string entry) {
   s.parameters[std::string(list)] = std::move(entries);
 }
 
-/// The joints that the subsystem does not name get the modes of the model, and its gains where it states none.
+/// Takes modes from the model for joints that the subsystem does not name, and gains if the subsystem has none.
 void add_drives(Subsystem& s, const Description& d, const std::vector<ModelDrive>& drives) {
   const Subsystem given = s;
   const bool takes_gains =
@@ -94,7 +94,7 @@ void add_drives(Subsystem& s, const Description& d, const std::vector<ModelDrive
   }
 }
 
-/// A motion, and that of its shadow.
+/// Adds drives to a motion, and to the motion of its shadow.
 void add_to_motion(Subsystem& s, const std::vector<ModelDrive>& drives, Algorithms& algorithms) {
   if (s.use.starts_with("motion.") && s.parameters.count("joints") == 0)
     if (const Description* const d = algorithms.describe(s)) add_drives(s, *d, drives);

@@ -6,8 +6,8 @@
 
 namespace muro::host {
 
-/// What joints follow by the model of a robot (`joint.drive`), and how hard, becomes what they follow in its motions,
-/// where the scenario says nothing else: neither `joints` nor a list that names the joint, and no gains.
+/// Sets targets and gains of joints in the motions of a robot to those in its model (`joint.drive`). The scenario has
+/// priority: values in `joints`, in a list that names the joint, or as gains are kept.
 void add_model_drives(RobotTemplate& t, const RobotTree& tree, Algorithms& algorithms);
 
 }  // namespace muro::host

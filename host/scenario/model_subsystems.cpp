@@ -13,14 +13,14 @@ namespace muro::host {
 
 namespace {
 
-/// "laser" of "laser.raycast".
+/// Returns "laser" for "laser.raycast".
 std::string_view family_of(const Subsystem& s) { return std::string_view(s.use).substr(0, s.use.find('.')); }
 
 bool takes_parameter(const Description& d, const std::string& name) {
   return std::any_of(d.parameters.begin(), d.parameters.end(), [&](const Parameter& p) { return p.name == name; });
 }
 
-/// What the model of one template brings.
+/// The subsystems in the model of one template.
 class ModelSubsystems {
  public:
   ModelSubsystems(const RobotTemplate& t, const RobotTree& tree, const std::string& file, Algorithms& algorithms,
@@ -36,14 +36,14 @@ class ModelSubsystems {
     return std::any_of(brought_.begin(), brought_.end(), [&](const Subsystem& s) { return s.name == name; });
   }
 
-  /// The end of the message that there is nothing of this name.
+  /// Returns the end of the message that there is nothing of this name.
   std::string suggestion_for(const std::string& name) const {
     std::vector<std::string> names;
     for (const Subsystem& s : brought_) names.push_back(s.name);
     return names.empty() ? std::string() : suggestion(name, names, "the model brings");
   }
 
-  /// The subsystems of one robot, completed.
+  /// Returns the subsystems of one robot, completed.
   std::vector<Subsystem> completed(std::vector<Subsystem> own) const {
     for (const Subsystem& s : brought_)
       if (s.use.empty())
@@ -66,7 +66,7 @@ class ModelSubsystems {
       }
   }
 
-  /// Those that the motions have and the scenario does not give.
+  /// Adds the parameters that the motions have and the scenario does not give.
   void add_to_motions(const Subsystem& brought, std::vector<Subsystem>& own) const {
     for (Subsystem& s : own)
       if (s.use.starts_with("motion.") && algorithms_.is_installed(s.use)) add_parameters(brought, s);
@@ -88,7 +88,7 @@ class ModelSubsystems {
     }
   }
 
-  /// Where the scenario only changes some keys, all others are those of the model. One with `use` replaces it.
+  /// When the scenario changes only some keys, the model gives all others. An entry with `use` replaces the model's.
   void complete(const Subsystem& brought, Subsystem& s) const {
     if (!s.use.empty() || !algorithms_.is_installed(brought.use)) return;
     s.use = brought.use;
@@ -102,13 +102,13 @@ class ModelSubsystems {
     return family_of(s) == "drive" && s.use != "drive.gravity_compensation";
   }
 
-  /// Whether two errors change the same reading; one that does not say which may change any.
+  /// Whether two errors change the same reading; an error without `of` may change any reading.
   static bool changes_same(const Subsystem& a, const Subsystem& b) {
     const auto of_a = a.parameters.find("of"), of_b = b.parameters.find("of");
     return of_a == a.parameters.end() || of_b == b.parameters.end() || of_a->second == of_b->second;
   }
 
-  /// A robot has one drive, and a reading one error: those of the scenario.
+  /// A robot has one drive, and a reading has one error: those of the scenario replace those of the model.
   static bool is_replaced(const Subsystem& brought, const std::vector<Subsystem>& own) {
     return std::any_of(own.begin(), own.end(), [&](const Subsystem& s) {
       if (s.from_model) return false;
@@ -117,7 +117,7 @@ class ModelSubsystems {
     });
   }
 
-  /// Those of the model whose sensor was switched off, or replaced.
+  /// Removes errors of the model whose sensor was switched off, or replaced.
   static void remove_errors_without_sensor(std::vector<Subsystem>& own) {
     std::vector<std::string> brought;
     for (const Subsystem& s : own)

@@ -20,7 +20,7 @@ Node& Node::operator=(Node&&) noexcept = default;
 Node::~Node() = default;
 
 std::size_t Node::position_of(const std::string& key) const {
-  constexpr std::size_t large = 32;  // keys, from which on an index finds them faster
+  constexpr std::size_t large = 32;  // number of keys from which on an index is faster
   if (map.size() < large) {
     for (std::size_t i = 0; i < map.size(); ++i)
       if (map[i].first == key) return i;
@@ -80,7 +80,7 @@ void merge(Node& base, const Node& overlay) {
 
 namespace {
 
-/// One step on the path of an override: a key, or the range of variants behind a robot's name.
+/// One step on the path of an override: a key, or the range of variants after a robot's name.
 struct PathStep {
   std::string name;
   bool range = false;

@@ -9,7 +9,7 @@
 
 namespace muro::host {
 
-/// Where a value is written: a file with line and column (from 1), or an override of the command line.
+/// The location of a value: a file with line and column (from 1), or an override of the command line.
 struct Location {
   std::string file;
   int line = 0;
@@ -20,7 +20,7 @@ struct Location {
   }
 };
 
-/// Where the keys of a large map stand. A copy begins empty, and is filled by the first search.
+/// Positions of the keys of a large map. A copy begins empty, and is filled by the first search.
 struct KeyIndex {
   KeyIndex() = default;
   KeyIndex(const KeyIndex&) noexcept {}
@@ -35,7 +35,7 @@ struct KeyIndex {
   std::unique_ptr<std::unordered_map<std::string, std::size_t>> positions;
 };
 
-/// A YAML tree that remembers where each value is written, so that files can be merged and every message can name the
+/// A YAML tree that remembers the location of each value, so that files can be merged and every message can name the
 /// location.
 struct Node {
   enum class Kind { null, scalar, list, map };
@@ -43,12 +43,12 @@ struct Node {
   Kind kind = Kind::null;
   Location location;
   std::string scalar;
-  bool quoted = false;    ///< a scalar in quotes is a text, never a number
+  bool quoted = false;    ///< a scalar in quotes is always a text, never a number
   bool empty = false;     ///< a null without any text, not even `~`
   bool replaces = false;  ///< replaces an earlier value of the same key
   std::vector<Node> list;
   std::vector<std::pair<std::string, Node>> map;  ///< in the order of the file
-  std::vector<Location> key_locations;            ///< of the keys of `map`
+  std::vector<Location> key_locations;            ///< locations of the keys of `map`
 
   Node();  // these members are out of line, because Node is incomplete where `map` is declared
   Node(const Node&);
@@ -58,11 +58,11 @@ struct Node {
   ~Node();
 
   static constexpr std::size_t none = ~std::size_t(0);
-  /// Where `key` stands in `map`; none where it does not.
+  /// Returns the index of `key` in `map`, or `none`.
   std::size_t position_of(const std::string& key) const;
   const Node* find(const std::string& key) const;
   Node* find(const std::string& key);
-  /// The child of that name; a missing one is added, empty.
+  /// Returns the child of that name; adds an empty one when it is missing.
   Node& child(const std::string& key, const Location& at);
   void erase(const std::string& key);
   /// Whether the value switches something off: `off`, `false`, `no`, `none`, `~`.
@@ -72,11 +72,11 @@ struct Node {
   mutable KeyIndex index_;
 };
 
-/// Merges `overlay` into `base`: maps key by key, any other value of `overlay` replaces that of `base`.
+/// Merges `overlay` into `base`: maps key by key; any other value of `overlay` replaces the value in `base`.
 void merge(Node& base, const Node& overlay);
 
-/// Sets one value by its path, "robots.rovers.count=100". `robots.rovers[2-4].motion.use=...` sets it for
-/// some robots of a template only. Throws SetupError when the assignment has no such form.
+/// Sets one value by its path, "robots.rovers.count=100". `robots.rovers[2-4].motion.use=...` sets it only for some
+/// robots of a template. Throws SetupError when the assignment has a different form.
 void apply_override(Node& root, const std::string& assignment);
 
 }  // namespace muro::host

@@ -20,7 +20,7 @@ bool overlaps(const Footprint& a, const Footprint& b, double clearance) {
   return std::sqrt(dx * dx + dy * dy) < a.radius + b.radius + clearance;
 }
 
-/// Monotone, also where a coordinate has no cell of its own.
+/// Returns the cell of a coordinate. Monotone, also for coordinates without a cell of their own.
 std::int64_t cell_of(double x, double cell) { return std::int64_t(std::floor(std::clamp(x / cell, -1e18, 1e18))); }
 
 }  // namespace
@@ -29,7 +29,7 @@ void Occupancy::add(const Footprint& footprint) { add(footprint, footprint.x, fo
 
 void Occupancy::add(const Obstacle& obstacle) {
   const Vec3& p = obstacle.pose.position;
-  // A tilted rectangle has no such circle, for its plane is met far away: see overlaps().
+  // A tilted rectangle has no such circle, because its plane is met far away: see overlaps().
   const bool is_upright = (obstacle.pose.orientation * Vec3::UnitZ()).z() > 1 - 1e-12;
   const double circle = std::sqrt(obstacle.half_x * obstacle.half_x + obstacle.half_y * obstacle.half_y);
   add(obstacle, p.x(), p.y(), is_upright ? 1.001 * circle : std::numeric_limits<double>::infinity());
@@ -51,7 +51,7 @@ bool Occupancy::is_free(const Footprint& f, double clearance) const {
   if (std::any_of(large_.begin(), large_.end(), meets)) return false;
   for (const auto& of_size : levels_) {
     const Level& level = of_size.second;
-    const double reach = f.radius + clearance + 0.51 * level.cell;  // an item reaches half a cell from its centre
+    const double reach = f.radius + clearance + 0.51 * level.cell;  // an item extends half a cell from its centre
     const Cell low{cell_of(f.x - reach, level.cell), cell_of(f.y - reach, level.cell)},
         high{cell_of(f.x + reach, level.cell), cell_of(f.y + reach, level.cell)};
     const double cells = (double(high.x) - double(low.x) + 1) * (double(high.y) - double(low.y) + 1);

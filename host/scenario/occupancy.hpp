@@ -20,13 +20,13 @@ struct Obstacle {
   double half_x, half_y;  ///< m
 };
 
-/// The ground that is taken. A hierarchy of grids, one for each size (Teschner et al., Optimized spatial hashing,
-/// 2003), so that a search looks at what is near only.
+/// The occupied ground. It is a hierarchy of grids, one for each size (Teschner et al., Optimized spatial hashing,
+/// 2003), so that a search only checks near items.
 class Occupancy {
  public:
   void add(const Footprint& footprint);
   void add(const Obstacle& obstacle);
-  /// Whether `footprint` keeps `clearance` (m) to everything that is there.
+  /// Whether `footprint` keeps `clearance` (m) to all items.
   bool is_free(const Footprint& footprint, double clearance) const;
 
  private:
@@ -40,7 +40,7 @@ class Occupancy {
     }
   };
   using Item = std::variant<Footprint, Obstacle>;
-  /// Items whose circles are no larger than a cell, each in the cell that has its centre.
+  /// Items with circles that are not larger than a cell; each is in the cell of its centre.
   struct Level {
     double cell;  ///< m, the side of a cell
     std::vector<Item> items;
@@ -49,8 +49,8 @@ class Occupancy {
 
   void add(const Item& item, double x, double y, double radius);
 
-  std::unordered_map<int, Level> levels_;  ///< by the exponent of the size of a cell
-  std::vector<Item> large_;                ///< without bounds
+  std::unordered_map<int, Level> levels_;  ///< by exponent of the cell size
+  std::vector<Item> large_;                ///< items without bounds
 };
 
 }  // namespace muro::host

@@ -17,9 +17,9 @@ namespace muro::host {
 
 namespace {
 
-constexpr double least_depth = 1e-3;  // m; less is what models and placement leave
+constexpr double least_depth = 1e-3;  // m; smaller overlaps are normal in models and placement
 
-/// The poses that are looked at: those at the start, or those of now, but for what is to be placed.
+/// The poses to check: those at the start, or the present ones, except for the body that is placed.
 struct Moment {
   bool is_start = true;
   const muro::Placement* placed = nullptr;
@@ -37,7 +37,7 @@ Pose pose_of(const World& world, const RobotView& robot, const Moment& moment) {
   return value_or(world, robot.base(), keys::pose, Pose{});
 }
 
-/// Of each link in the frame of the base.
+/// Returns the poses of all links in the frame of the base.
 std::vector<Pose> link_poses(const World& world, const RobotView& robot, const Moment& moment) {
   const auto start = [&](const Link& link) {
     return moment.is_start ? world.constant(link.joint_object, keys::initial_joint_position, 0.0)
@@ -62,10 +62,10 @@ bool heeds_contacts(const World& world, const RobotView& robot) {
   return (contact_world && *contact_world != 0) || world.is_used(robot.base(), keys::contacts.name, usage::read);
 }
 
-/// A body of the scene below, the same in each of its kinds.
+/// A body of the still scene, the same in each variant of it.
 struct ShapeOfBody {
   ObjectId object;     ///< the base of a robot, or scenery
-  std::uint32_t link;  ///< of a robot, in Names
+  std::uint32_t link;  ///< for a robot, an index in Names
   auto operator<=>(const ShapeOfBody&) const = default;
 };
 
@@ -74,8 +74,8 @@ struct PairContact {
   double depth;
 };
 
-/// By robot: whether its motion takes scenery meshes as their convex hulls. A world says so by `meshes`, or
-/// knows nothing else; for all others the collision algorithm decides, by the same.
+/// Whether the motion of each robot takes meshes of scenery as their convex hulls. A world has a parameter `meshes` for
+/// this, or always does so; for all others the collision algorithm decides, by its own parameter.
 std::vector<bool> takes_hulls_of_scenery(const Simulation& simulation) {
   const auto is_convex = [](const Instance& instance, std::string_view name, bool otherwise,
                             const std::map<std::string, ParameterInput>& given) {
@@ -106,7 +106,7 @@ std::vector<bool> takes_hulls_of_scenery(const Simulation& simulation) {
 /// A scene of the same shapes in which nothing moves: each robot is one body.
 class Still {
  public:
-  /// `hulls`: meshes count as their convex hulls, and only pairs that they do for are found.
+  /// `hulls`: meshes count as their convex hulls, and only pairs for which they do are found.
   Still(Simulation& simulation, ShapeFiles& files, bool hulls, const Moment& moment = {})
       : original_(simulation.world()),
         files_(files),
@@ -124,7 +124,7 @@ class Still {
   }
   bool has_meshes() const { return has_meshes_; }
 
-  /// With the names of the `most` deepest; `found`: what another scene of the same bodies has found.
+  /// Returns overlaps with the names of the `most` deepest. `found`: contacts from another scene of the same bodies.
   Overlaps overlaps(std::size_t most, const std::vector<PairContact>& found) {
     Overlaps all;
     contacts_.insert(contacts_.end(), found.begin(), found.end());
@@ -150,7 +150,7 @@ class Still {
  private:
   struct Names {
     bool heeds_contacts;
-    bool heeds_heightmaps;  ///< on which it goes, or through which, if no contact moves it, wherever it is put
+    bool heeds_heightmaps;  ///< false when no contact moves it: it then moves on or through them
     bool scenery_is_hulls;
     std::vector<std::string> of_link;  ///< of links with shapes
     std::vector<std::uint32_t> link_of_shape;
@@ -176,7 +176,7 @@ class Still {
                                (pose.front() * s.origin).inverse(), added});
   }
 
-  /// What reaches below heightmaps, also where it is so deep that it touches no surface.
+  /// Finds bodies below heightmaps, also those that are so deep that they touch no surface.
   void find_buried(ObjectId base, const Names& names, const Pose& start, std::span<const Shape> shapes,
                    const TextTable& texts) {
     for (const HeightmapAt& h : heightmaps_)
@@ -250,7 +250,7 @@ class Still {
     return robot != robots_.end() && robot->second.heeds_contacts;
   }
 
-  /// A pair of robots stands in the lists of both; scenery comes second.
+  /// Adds a contact. A pair of robots is in the lists of both; scenery comes second.
   void add(const Contact& c) {
     if (c.depth < least_depth || (!heeds(c.self) && !heeds(c.other))) return;
     const bool on_heightmap =
@@ -262,7 +262,7 @@ class Still {
     contacts_.push_back(pair);
   }
 
-  /// One contact of each pair of bodies, the deepest pair first.
+  /// Keeps one contact of each pair of bodies, with the deepest pair first.
   void keep_deepest() {
     const auto by_pair = [](const PairContact& a, const PairContact& b) {
       return a.bodies != b.bodies ? a.bodies < b.bodies : a.depth > b.depth;
@@ -276,7 +276,7 @@ class Still {
 
   struct HeightmapAt {
     Heightmap map;
-    Pose inverse;  ///< of the world in the frame of the map
+    Pose inverse;  ///< pose of the world in the frame of the map
     ObjectId object;
   };
 
@@ -306,13 +306,13 @@ Overlaps overlaps_at_start(Simulation& simulation, ShapeFiles& files, std::size_
     exact.find();
     if (!exact.has_meshes()) return exact.overlaps(most, {});
     return exact.overlaps(most, Still(simulation, files, true).find());
-  } catch (const std::exception&) {  // what cannot be found is not told
+  } catch (const std::exception&) {  // overlaps that cannot be found are not reported
     return {};
   }
 }
 
 std::string overlap_of(Simulation& simulation, ShapeFiles& files, const muro::Placement& placement) {
-  constexpr double most_depth = 5e-3;  // m; by less, wheels and feet sink in where they stand
+  constexpr double most_depth = 5e-3;  // m; wheels and feet sink in by less where they stand
   const Moment moment{false, &placement};
   try {
     Still exact(simulation, files, false, moment);
@@ -328,7 +328,7 @@ std::string overlap_of(Simulation& simulation, ShapeFiles& files, const muro::Pl
     };
     return fmt::format("{} by {:.2g} m", in_backquotes(is_own(deepest.first) ? deepest.second : deepest.first),
                        deepest.depth);
-  } catch (const std::exception&) {  // what cannot be found is not told
+  } catch (const std::exception&) {  // overlaps that cannot be found are not reported
     return "";
   }
 }

@@ -10,27 +10,27 @@
 
 namespace muro::host {
 
-/// Two bodies that overlap where they start.
+/// Two bodies that overlap at their start.
 struct Overlap {
   std::string first, second;  ///< names of bodies
-  double depth;               ///< m, of the deepest contact
+  double depth;               ///< m, depth of the deepest contact
 };
 
 struct Overlaps {
-  std::vector<Overlap> deepest;  ///< first the deepest of all
-  std::size_t count = 0;         ///< of all
+  std::vector<Overlap> deepest;  ///< the deepest comes first
+  std::size_t count = 0;         ///< number of all overlaps
 };
 
-/// The bodies that overlap by more than a millimetre before the first step of a built simulation. Pairs that no contact
-/// moves or stops are left out, and so is what the plugins that are there cannot find.
+/// Finds the bodies that overlap by more than a millimetre before the first step of a built simulation. Pairs that no
+/// contact moves or stops are left out, and so are overlaps that the installed plugins cannot find.
 Overlaps overlaps_at_start(Simulation& simulation, ShapeFiles& files, std::size_t most);
 
-/// What the robot would overlap by more than 5 mm, as all bodies are now, if it were placed there, the deepest: "`wall`
-/// by 0.2 m"; empty: nothing that could be found.
+/// Returns the deepest overlap that the robot would have with the present bodies if it were placed there, when it is
+/// more than 5 mm: "`wall` by 0.2 m". Empty: none was found.
 std::string overlap_of(Simulation& simulation, ShapeFiles& files, const muro::Placement& placement);
 
-/// A line for each of the deepest, and one for how many more there are. `place_of`: where a file says where the robot
-/// of a body is ("a.yaml:3:5"); empty: nowhere.
+/// Returns a line for each of the deepest overlaps, and one with the number of the others. `place_of`: returns the
+/// location in a file that places the robot of a body ("a.yaml:3:5"); empty: there is none.
 std::vector<std::string> overlap_notes(Simulation& simulation, ShapeFiles& files,
                                        const std::function<std::string(const std::string& body)>& place_of);
 

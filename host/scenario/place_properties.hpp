@@ -7,7 +7,7 @@
 
 namespace muro::host {
 
-/// Leaves the named places of a scenario on the world object, where algorithms find them.
+/// Stores the named places of a scenario on the world object, where algorithms find them.
 inline void set_places(World& world, const Scenario& scenario) {
   std::vector<TextId> names;
   std::vector<double> numbers;

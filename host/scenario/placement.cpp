@@ -15,7 +15,7 @@ namespace muro::host {
 
 namespace {
 
-constexpr int max_attempts = 10'000;  // for one copy, before the place counts as full
+constexpr int max_attempts = 10'000;  // for one copy, before the area counts as full
 
 Pose pose_of(const PoseInput& given) {
   return {{given.x, given.y, given.z.value_or(0)}, from_rpy(given.roll, given.pitch, given.yaw)};
@@ -53,7 +53,7 @@ class PoseSampler {
   };
   Sample draw(int copy, int attempt) const {
     const std::uint64_t seed = placement_.seed.value_or(1);
-    // Random takes the exclusive or of seed and key, by which copies of small seeds would only change places
+    // Random uses the exclusive or of seed and key; with the bare number, small seeds would only exchange the copies
     const Random random(seed, hash_bytes(&copy, sizeof copy, seed), std::uint64_t(attempt));
     const auto end = std::lower_bound(ends_.begin(), std::prev(ends_.end()), random.uniform(0) * ends_.back());
     const Rectangle& r = area_[std::size_t(end - ends_.begin())];
@@ -67,7 +67,7 @@ class PoseSampler {
   const Placement& placement_;
   const std::vector<Rectangle>& area_;
   double radius_;
-  std::vector<double> ends_;  ///< m^2, of each rectangle and those before it together
+  std::vector<double> ends_;  ///< m^2, sum of the areas of a rectangle and of those before it
 };
 
 std::vector<Pose> place_random(const Placement& p, int count, const Body& body, const std::vector<Rectangle>& area,

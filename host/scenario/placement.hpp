@@ -12,16 +12,16 @@
 
 namespace muro::host {
 
-/// What is placed.
+/// A body to be placed.
 struct Body {
-  std::string name;  ///< in messages
-  /// Where no z is given: of its origin (m) when it stands at a pose, whose own height does not count. Without it what
-  /// has no z has 0.
+  std::string name;  ///< name in messages
+  /// Height (m) of the origin at a pose, for poses without z; the height of the pose does not count. Without this
+  /// function a missing z is 0.
   std::function<double(const Pose&)> height_at;
-  double radius;  ///< of its footprint, m
+  double radius;  ///< m, radius of its footprint
 };
 
-/// Poses for `count` copies of a body. Random poses keep `placement.clearance` to all that is `occupied`; the
+/// Returns poses for `count` copies of a body. Random poses keep `placement.clearance` to everything in `occupied`; the
 /// footprints of all copies are added to it. Throws SetupError when the copies do not fit.
 std::vector<Pose> place(const Placement& placement, int count, const Body& body,
                         const std::map<std::string, std::vector<Rectangle>>& places, Occupancy& occupied);

@@ -8,10 +8,10 @@
 
 namespace muro::host {
 
-/// `{count: [nx, ny], spacing: [dx, dy], center: {...}}`.
+/// Reads `{count: [nx, ny], spacing: [dx, dy], center: {...}}`.
 Placement read_grid(const Node& node, const std::string& what, Problems& problems);
 
-/// `at: {x, y, ...}`, or `place:` with one of `list`, `grid`, `random`; the origin when there is neither.
+/// Reads `at: {x, y, ...}`, or `place:` with one of `list`, `grid`, `random`; the origin when there is neither.
 Placement read_placement(MapReader& map, Problems& problems);
 
 }  // namespace muro::host

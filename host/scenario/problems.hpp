@@ -10,14 +10,14 @@
 
 namespace muro::host {
 
-/// Collects the mistakes of a scenario, so that all of them can be reported at once; each problem once, and of very
-/// many the first ones and how many there are.
+/// Collects the mistakes of a scenario, so that all of them can be reported together; each problem once. Of very many
+/// problems only the first ones are reported, with the total number.
 class Problems {
  public:
   void add(const Location& at, const std::string& text) { add(at.text() + ": " + text); }
-  /// `line` is shown as one line, whatever it holds.
+  /// `line` is shown as one line, whatever it contains.
   void add(std::string line);
-  /// Runs `work`; the lines of what it throws become problems, each behind `prefix`. Returns whether it threw nothing.
+  /// Runs `work`; lines of its exception become problems, each after `prefix`. Returns whether there was no exception.
   bool collect(const std::string& prefix, const std::function<void()>& work);
   /// Throws SetupError if there are any.
   void check() const;
@@ -28,11 +28,11 @@ class Problems {
   std::unordered_set<std::string> known_;  ///< all
 };
 
-/// Checks that a name can be part of "robot/object:property" and of the name of a file: not empty, at most 255 bytes,
-/// no `/`, `:`, control characters or white space. `what` is named in the message: "a robot".
+/// Checks that a name can be part of "robot/object:property" and of a file name: not empty, at most 255 bytes, no `/`,
+/// `:`, control characters or white space. `what` is named in the message: "a robot".
 bool check_name(const std::string& name, const Location& at, const std::string& what, Problems& problems);
 
-/// A mistake that may turn out to be none: a model may bring a subsystem of this name.
+/// A mistake that may turn out to be none: the model may have a subsystem of this name.
 struct UnknownSubsystem {
   std::string name;
   Location location;
@@ -41,12 +41,12 @@ struct UnknownSubsystem {
 
 using TakeUnknown = std::function<void(UnknownSubsystem)>;
 
-/// Each `off` in `map` that check_switched_off refuses.
+/// Returns each `off` in `map` that check_switched_off would refuse.
 std::vector<UnknownSubsystem> unknown_switched_off(const Node& map, const std::vector<std::string>& names,
                                                    const std::string& what);
 
-/// Checks each `off` in `map`: it must switch off what an include, a variant or an override replaces by it, or one of
-/// `names`. `what` names the map in the message.
+/// Checks each `off` in `map`: it must switch off one of `names`, or replace an earlier value (as an include, a variant
+/// or an override does). `what` names the map in the message.
 void check_switched_off(const Node& map, const std::vector<std::string>& names, const std::string& what,
                         Problems& problems);
 

@@ -76,10 +76,10 @@ class RobotReader {
     return t;
   }
 
-  /// Whose file may bring subsystems.
+  /// Whether there is a model file, which may contain subsystems.
   static bool has_model(const RobotTemplate& t) { return t.from_world || !t.model.empty(); }
 
-  /// The model may bring it, which is known when that is read.
+  /// Keeps a mistake that may be none: the model may have the subsystem, which is known when the model is read.
   void take_unknown(UnknownSubsystem u, RobotTemplate& t) {
     if (has_model(t))
       t.unknown.push_back(std::move(u));
@@ -96,7 +96,7 @@ class RobotReader {
     }
   }
 
-  /// How many robots there are, and where.
+  /// Reads the number of robots, and their places.
   void read_copies(MapReader& map, const Node& node, RobotTemplate& t) {
     t.numbered = node.find("count") != nullptr;
     t.count = int(map.integer("count", 1, 0, 1'000'000));
@@ -161,12 +161,12 @@ class RobotReader {
     return names;
   }
 
-  /// Every key that is not read yet must be a subsystem. Robots with the same variants share one list of subsystems.
+  /// Reads subsystems: every key that is not read yet must be one. Robots with the same variants share one list.
   void read_subsystems(const MapReader& map, const std::vector<Variant>& variants, RobotTemplate& t) {
     const Node subsystems = subsystem_nodes(map, t);
     for (UnknownSubsystem& u : unknown_switched_off(subsystems, subsystem_names_, map.what()))
       take_unknown(std::move(u), t);
-    std::map<std::vector<std::size_t>, std::size_t> numbers;  // of lists, by the variants of a robot
+    std::map<std::vector<std::size_t>, std::size_t> numbers;  // index of the list, by the variants of a robot
     std::map<int, std::vector<std::size_t>> changes;          // variants that begin or end with a robot
     for (std::size_t v = 0; v < variants.size(); ++v) {
       changes[variants[v].first].push_back(v);
@@ -191,7 +191,7 @@ class RobotReader {
       }
       t.subsystems.add(list);
     }
-    if (t.count == 0) subsystems_of(subsystems, map.what(), has_model(t));  // to find their mistakes
+    if (t.count == 0) subsystems_of(subsystems, map.what(), has_model(t));  // finds their mistakes
   }
 
   Node subsystem_nodes(const MapReader& map, RobotTemplate& t) {
@@ -214,7 +214,7 @@ class RobotReader {
     return nodes;
   }
 
-  /// `with_model`: also those that only change, or switch off, what the model brings.
+  /// `with_model`: also subsystems that only change, or switch off, a subsystem of the model.
   std::vector<Subsystem> subsystems_of(const Node& nodes, const std::string& owner, bool with_model) {
     std::vector<Subsystem> all;
     for (std::size_t i = 0; i < nodes.map.size(); ++i) {
@@ -235,7 +235,7 @@ class RobotReader {
   const Node& robots_;
   Problems& problems_;
   std::vector<std::string> robot_names_;
-  std::vector<std::string> subsystem_names_;  ///< of all robots, each once
+  std::vector<std::string> subsystem_names_;  ///< names of all robots, each once
   std::unordered_set<std::string> known_subsystem_names_;
 };
 

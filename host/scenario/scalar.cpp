@@ -49,7 +49,7 @@ std::optional<ParameterInput> list_parameter(const Node& node) {
   return texts;
 }
 
-/// A map of single values is a list of texts "key=value".
+/// Converts a map of single values to a list of texts "key=value".
 std::optional<ParameterInput> map_parameter(const Node& node) {
   std::vector<std::string> texts;
   for (const auto& [key, value] : node.map) {

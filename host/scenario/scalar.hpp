@@ -10,12 +10,12 @@
 
 namespace muro::host {
 
-/// A value for messages: "`3`", "a list of 2".
+/// Returns a value for messages: "`3`", "a list of 2".
 std::string quoted(const Node& node);
-/// A scalar as a number, if it is one.
+/// Returns a scalar as a number, if it is one.
 std::optional<double> as_number(const Node& node);
-/// A scalar, a flat list or a flat map as a parameter of an algorithm; a map is a list of texts "key=value". None for
-/// what is nested.
+/// Returns a scalar, a flat list or a flat map as a parameter of an algorithm; a map becomes a list of texts
+/// "key=value". Returns nothing for a nested value.
 std::optional<ParameterInput> as_parameter(const Node& node);
 
 }  // namespace muro::host

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One rectangle of a place, with its copies.
+/// Reads one rectangle of a place, with its copies.
 void read_rectangle(const Node& n, const std::string& what, std::vector<Rectangle>& out, Problems& problems) {
   MapReader map(n, what, problems);
   Rectangle r;
@@ -175,7 +175,7 @@ unsigned read_threads(const Node& n, Problems& problems) {
   return 1;
 }
 
-/// A key without a value is more often a mistake than intended.
+/// Reports keys without a value: they are mistakes more often than intended.
 void check_empty(const Node& n, Problems& problems) {
   for (std::size_t i = 0; i < n.map.size(); ++i) {
     const auto& [key, value] = n.map[i];

@@ -10,7 +10,7 @@ namespace muro::host {
 
 namespace {
 
-/// A property by its name alone: it belongs to the plugin level.shadow.
+/// Returns a property by its name only: it belongs to the plugin level.shadow.
 double value(const Simulation& s, const RobotView& robot, std::string_view key) {
   const double* const found = s.world().find_value(robot.base(), Key<double>{key, "", ""});
   return found ? *found : 0;

@@ -11,15 +11,15 @@ namespace muro::host {
 /// The deviation of a shadow from its robot in a run.
 struct ShadowResult {
   std::string robot;
-  std::string motion;                      ///< that moved the shadow: "motion.ode"
+  std::string motion;                      ///< motion of the shadow: "motion.ode"
   double distance = 0, angle = 0;          ///< at the end: m, rad
   double max_distance = 0, max_angle = 0;  ///< over the run: m, rad
 };
 
-/// Of all shadows in the scene.
+/// Returns the deviations of all shadows in the scene.
 std::vector<ShadowResult> shadow_results(const Simulation& simulation);
 
-/// Whether the robot is a shadow of another one.
+/// Whether the robot is a shadow of another robot.
 bool is_shadow(const Simulation& simulation, const RobotView& robot);
 
 }  // namespace muro::host

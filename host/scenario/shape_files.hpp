@@ -6,7 +6,7 @@
 
 namespace muro::host {
 
-/// What placement and the check of overlaps know of the files of shapes.
+/// Files of shapes, for placement and for the check of overlaps.
 struct ShapeFiles {
   explicit ShapeFiles(Simulation& simulation) : meshes(simulation), heightmaps(simulation) {}
   MeshCorners meshes;

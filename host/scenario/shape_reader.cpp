@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The path that the value of `key` names, which starts at the folder of the scenario.
+/// Reads a heightmap; `file` gets its path, which starts at the folder of the scenario.
 Shape read_heightmap(MapReader& map, std::string& file, Problems& problems) {
   Shape shape{.kind = ShapeKind::heightmap, .size = Vec3::Ones()};
   file = file_of(map, "heightmap", problems);
@@ -37,7 +37,7 @@ Shape read_mesh(MapReader& map, std::string& mesh, Problems& problems) {
   return shape;
 }
 
-/// `kind`: the key that names the geometry, "box".
+/// Reads a geometry. `kind`: the key that names it, such as "box".
 Shape read_geometry(MapReader& map, const std::string& kind, std::string& mesh, Problems& problems) {
   if (kind == "sphere") return Shape::sphere(map.number(kind, 1, limits::min_size, limits::max_size));
   if (kind == "mesh") return read_mesh(map, mesh, problems);
@@ -60,7 +60,7 @@ std::string resolve_path(const Location& at, const std::string& name) {
 std::string file_of(MapReader& map, const std::string& key, Problems& problems) {
   const Node& value = *map.find(key);
   std::string path = resolve_path(value.location, map.text(key, ""));
-  if (value.kind != Node::Kind::scalar) return path;  // told already
+  if (value.kind != Node::Kind::scalar) return path;  // reported already
   std::error_code code;
   const char* const problem = value.scalar.empty()               ? "has no name"
                               : fs::is_directory(path, code)     ? "is a folder"

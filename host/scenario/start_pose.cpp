@@ -24,7 +24,7 @@ std::string range_of(const Link& link) {
   return fmt::format("{:g} to {:g} {}", link.limits.lower, link.limits.upper, unit_of(link));
 }
 
-/// Where the model has a joint at the start (rad or m); 0 where it does not say.
+/// Position (rad or m) of a joint at the start in the model; 0 when it gives none.
 double position_in_model(const RobotTree& tree, const RobotTree::FlatLink& link) {
   double position = 0;
   if (link.joint < 0) return position;
@@ -34,7 +34,7 @@ double position_in_model(const RobotTree& tree, const RobotTree::FlatLink& link)
   return position;
 }
 
-/// Sets the positions that the scenario states.
+/// Sets the positions that the scenario gives.
 void set_given(const RobotTree& tree, const RobotTemplate& t, std::vector<double>& positions,
                std::vector<bool>& is_given, Problems& problems) {
   const auto& links = tree.links();

@@ -24,13 +24,13 @@ void read_rate(MapReader& map, Subsystem& out) {
                 fmt::format("is {} but must be a number from 1e-06 to 1e+09 in Hz, or on_demand", quoted(*rate)));
 }
 
-/// Of which a message tells already.
+/// Whether an inner value is empty, which another message reports already.
 bool has_empty_value(const Node& value) {
   const auto is_null = [](const auto& entry) { return entry.second.kind == Node::Kind::null; };
   return std::any_of(value.map.begin(), value.map.end(), is_null);
 }
 
-/// Why a list or a map is no parameter: the first of its values that is no single one.
+/// Returns why a list or a map is no parameter: the first inner value that is not a single value.
 std::string what_nests(const Node& value) {
   for (const auto& [key, inner] : value.map)
     if (inner.kind != Node::Kind::scalar) return fmt::format("; its `{}` is {}", key, quoted(inner));
@@ -39,7 +39,7 @@ std::string what_nests(const Node& value) {
   return fmt::format(", not {}", quoted(value));
 }
 
-/// All keys that are not read yet are parameters. Those under the name of an algorithm hold for that algorithm alone.
+/// Reads all remaining keys as parameters. Those under the name of an algorithm hold only for that algorithm.
 void read_parameters(MapReader& map, Subsystem& out, Problems& problems) {
   const auto add = [&](const std::string& key, const Node& value) {
     if (value.location.file != out.location.file) out.parameter_places[key] = value.location.text();

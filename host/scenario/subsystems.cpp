@@ -36,7 +36,7 @@ bool Subsystems::add(const RobotTemplate& t, const RobotView& robot, const std::
   return moved;
 }
 
-/// A robot has one motion, or levels of it. A second one is often a name that is misspelt. `first`: the one so far.
+/// Whether a robot has only one motion, or levels of one. Another one is often a misspelt name. `first`: the first.
 bool Subsystems::is_only_motion(const RobotTemplate& t, const Subsystem& s, const Subsystem*& first) {
   if (!first || (first->level && s.level)) {
     first = &s;
@@ -80,7 +80,7 @@ bool Subsystems::add_one(const RobotTemplate& t, const RobotView& robot, const S
   return d.kind == Kind::motion;
 }
 
-/// The object "robot/NAME" that `on: NAME` names; the base, and a problem, when there is none.
+/// Returns the object "robot/NAME" for `on: NAME`. When there is none, returns the base and adds a problem.
 ObjectId Subsystems::mounting_object(const RobotView& robot, const Subsystem& s) {
   const ObjectId object = world_.find_object(fmt::format("{}/{}", robot.name, s.on));
   if (object != no_object) return object;
@@ -100,7 +100,7 @@ ObjectId Subsystems::add_sensor(const RobotTemplate& t, const RobotView& robot, 
   return no_object;
 }
 
-/// The object of the sensor whose readings the error changes. It runs at the sensor's rate and phase when it has none.
+/// Returns the object of the sensor with this error. An error without rate and phase gets those of the sensor.
 ObjectId Subsystems::sensor_of_error(const RobotTemplate& t, const RobotView& robot, Subsystem& s,
                                      const std::vector<Subsystem>& all) {
   const auto sensor = std::find_if(all.begin(), all.end(), [&](const Subsystem& o) { return o.name == s.on; });

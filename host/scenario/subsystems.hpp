@@ -15,7 +15,7 @@ class Subsystems {
   Subsystems(Simulation& simulation, Algorithms& algorithms, Problems& problems)
       : simulation_(simulation), world_(simulation.world()), algorithms_(algorithms), problems_(problems) {}
 
-  /// Adds sensors first, because what belongs to one may precede it in the file. Returns whether a motion moves the
+  /// Adds sensors first, because parts of a sensor may precede it in the file. Returns whether a motion moves the
   /// robot.
   bool add(const RobotTemplate& t, const RobotView& robot, const std::vector<Subsystem>& subsystems);
 
@@ -24,7 +24,7 @@ class Subsystems {
   bool add_one(const RobotTemplate& t, const RobotView& robot, const Subsystem& s, const Description& d,
                const std::vector<Subsystem>& all);
   ObjectId mounting_object(const RobotView& robot, const Subsystem& s);
-  /// These return no_object, and a problem, when there is no such object.
+  /// Both functions return no_object and add a problem when there is no such object.
   ObjectId add_sensor(const RobotTemplate& t, const RobotView& robot, const Subsystem& s);
   ObjectId sensor_of_error(const RobotTemplate& t, const RobotView& robot, Subsystem& s,
                            const std::vector<Subsystem>& all);

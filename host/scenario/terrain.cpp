@@ -15,11 +15,11 @@ namespace muro::host {
 
 namespace {
 
-/// Cosines of the largest angle between the normal of a surface, and of a floor, and the vertical.
+/// Cosines of the largest angle between the vertical and the normal of a surface, and of a floor.
 constexpr double least_upward = 0.1, least_upward_of_floor = M_SQRT1_2;
-constexpr double least_flatness = 10;  ///< of a floor: width by thickness
+constexpr double least_flatness = 10;  ///< of a floor: width divided by thickness
 
-/// The axis along which a box is thinnest, if it is a plate.
+/// Returns the axis along which a box is thinnest, if it is a plate.
 std::optional<int> thin_axis(const Vec3& size) {
   int axis = 0;
   const double thickness = size.minCoeff(&axis);
@@ -96,7 +96,7 @@ void Terrain::add_scenery(const World& world) {
   }
 }
 
-/// m: the lowest and the highest height of a map, in its frame.
+/// Returns the lowest and the highest height (m) of a map, in its frame.
 std::array<double, 2> Terrain::heights_of(const Tile& tile) {
   const auto known = heights_.find(tile.file);
   if (known != heights_.end()) return {tile.size.z() * known->second[0], tile.size.z() * known->second[1]};
@@ -106,8 +106,8 @@ std::array<double, 2> Terrain::heights_of(const Tile& tile) {
   return heights_of(tile);
 }
 
-/// The part of a tile, in its frame, that is above or below a box of the world. Upwards is aslant in the frame of a map
-/// that is tilted.
+/// Returns the part of a tile, in its frame, that is above or below a box of the world. In the frame of a tilted map
+/// the vertical is oblique.
 Aabb Terrain::part_near(const Tile& tile, const ConvexBottom& bottom) {
   const Quat to_map = tile.pose.orientation.conjugate();
   const Vec3 up = to_map * Vec3::UnitZ();
@@ -124,7 +124,7 @@ Aabb Terrain::part_near(const Tile& tile, const ConvexBottom& bottom) {
   return part;
 }
 
-/// Those that are above or below the shape.
+/// Adds the triangles that are above or below the shape.
 void Terrain::add_triangles(const Tile& tile, RiseAbove& above) {
   const Heightmap map = files_.heightmaps.of(tile.file, tile.size);
   const Aabb part = part_near(tile, above.bottom());
@@ -142,8 +142,8 @@ void Terrain::add_triangles(const Tile& tile, RiseAbove& above) {
       }
 }
 
-/// By how much (m) what stands at `at` must be raised to touch a surface from above; less than 0: may be lowered.
-/// Nothing where the surface is not below or above it. Calls add_triangles(above) for each shape.
+/// Returns the height (m) by which a body at `at` must be raised to touch a surface from above; less than 0 when it may
+/// be lowered. Returns nothing when the surface is not below or above it. Calls add_triangles(above) for each shape.
 template <class AddTriangles>
 std::optional<double> Terrain::rise(std::span<const StandingShape> shapes, const Pose& at, AddTriangles add_triangles) {
   std::optional<double> most;
@@ -157,7 +157,7 @@ std::optional<double> Terrain::rise(std::span<const StandingShape> shapes, const
   return most;
 }
 
-/// How far (m) what is turned so reaches from its origin.
+/// Returns how far (m) shapes with this orientation extend from their origin along `direction`.
 double Terrain::extent_along(std::span<const StandingShape> shapes, const Quat& orientation, const Vec3& direction) {
   const Vec3 in_body = orientation.conjugate() * direction;
   std::optional<double> most;
@@ -213,7 +213,7 @@ double Terrain::height(std::span<const StandingShape> all, const Pose& at) {
   const double above = extent_along(shapes, at.orientation, Vec3::UnitZ());
   for (const Floor& floor : floors_) {
     if (!height && floor.low > 0) height = on_zero;
-    if (height && floor.low >= *height + above) continue;  // it goes below
+    if (height && floor.low >= *height + above) continue;  // the body is below this floor
     const std::optional<double> on_floor = height_on_floor(floor, shapes, at);
     if (on_floor) height = height ? std::max(*height, *on_floor) : *on_floor;
   }

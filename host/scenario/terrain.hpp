@@ -16,42 +16,42 @@
 
 namespace muro::host {
 
-/// A shape of what is placed.
+/// A shape of a body that is placed.
 struct StandingShape {
   Shape shape;
   std::string mesh;  ///< path of a mesh's file
-  Pose pose{};       ///< in the frame of what is placed
+  Pose pose{};       ///< in the frame of the body
 };
 
-/// The collision shapes of a robot. `positions`: of the joint of each link (rad or m).
+/// Returns the collision shapes of a robot. `positions`: position of the joint of each link (rad or m).
 std::vector<StandingShape> standing_shapes(const RobotTree& tree, std::span<const double> positions);
 
-/// The first link of a robot that has a heightmap as a collision shape; empty: none.
+/// Returns the first link of a robot that has a heightmap as a collision shape; empty: none.
 std::string link_with_heightmap(const RobotTree& tree);
 
-/// What robots and scenery stand on: the heightmaps, planes and floors of the scenery, over each other; the highest
-/// counts. A floor is a box at least ten times as wide as it is thick that lies within 45 deg of level. Where there is
-/// nothing below, the plane z = 0 is the ground.
+/// The ground under robots and scenery: the heightmaps, planes and floors of the scenery, which may be over each other;
+/// the highest counts. A floor is a box at least ten times as wide as it is thick, within 45 deg of level. Where there
+/// is nothing below, the plane z = 0 is the ground.
 class Terrain {
  public:
   explicit Terrain(ShapeFiles& files) : files_(files) {}
 
   /// Throws SetupError when the file of a heightmap cannot be read.
   void check_file(const Shape& heightmap, const std::string& file) { files_.heightmaps.of(file, heightmap.size); }
-  /// Whether a shape carries what stands without a height if it looks up.
+  /// Whether bodies without a given height can stand on a shape, if it faces upwards.
   static bool carries(const Shape& shape);
-  /// Adds a shape of the scenery that stands at `pose`; what does not look up, or carries nothing, is no ground.
+  /// Adds a shape of the scenery at `pose`; a shape that does not face upwards, or carries nothing, is no ground.
   void add(const Shape& shape, const std::string& file, const Pose& pose);
-  /// The same for all scenery of a world so far.
+  /// Adds all scenery that a world has so far.
   void add_scenery(const World& world);
 
-  /// The height (m) of the origin of what is placed at `at`, whose own height does not count, so that nothing of its
-  /// shapes (over heightmaps and floors, of meshes: their convex hulls) is below the ground and one touches it. What
-  /// has no shapes stands with its origin on the ground. Floors above it are no ground. Throws SetupError when a file
+  /// Returns the height (m) of a body's origin at `at`, whose own height does not count. The body stands so that all of
+  /// its shapes are above the ground and one touches it; over heightmaps and floors, meshes are their convex hulls. A
+  /// body without shapes has its origin on the ground. Floors above it are no ground. Throws SetupError when a file
   /// cannot be read.
   double height(std::span<const StandingShape> shapes, const Pose& at);
   bool has_heightmaps() const { return !tiles_.empty(); }
-  /// The same over heightmaps and planes alone; nothing where there is none under it.
+  /// Returns the height over heightmaps and planes only; nothing when there is none below.
   std::optional<double> height_on_terrain(std::span<const StandingShape> shapes, const Pose& at);
 
  private:

@@ -14,7 +14,7 @@ double depth_of(const Heightmap& map, const Vec3& point) {
   return (ground->height - point.z()) * ground->normal.z();
 }
 
-/// The point of a round shape, in its own frame, that is furthest along `direction` (unit).
+/// Returns the point of a round shape, in its own frame, that is furthest along `direction` (unit).
 Vec3 furthest(const Shape& s, const Vec3& direction) {
   const double half = s.kind == ShapeKind::sphere ? 0 : std::copysign(0.5 * s.size.z(), direction.z());
   if (s.kind != ShapeKind::cylinder) return Vec3(0, 0, half) + s.size.x() * direction;

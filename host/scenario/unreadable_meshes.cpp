@@ -33,7 +33,7 @@ void UnreadableMeshes::leave_out(std::vector<Shape>& shapes, const TextTable& te
 }
 
 void UnreadableMeshes::tell() const {
-  constexpr std::size_t most = 4;  // links
+  constexpr std::size_t most = 4;  // most links in a message
   for (const Lost& l : lost_) {
     const std::size_t shown = std::min(most, l.links.size()), others = l.links.size() - shown;
     std::string links = comma_separated({l.links.begin(), l.links.begin() + std::ptrdiff_t(shown)});

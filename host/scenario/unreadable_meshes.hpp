@@ -10,20 +10,20 @@
 
 namespace muro::host {
 
-/// Leaves out those collision meshes of models whose files cannot be read, as readers do with files that are not there.
+/// Removes those collision meshes of models that have unreadable files, as readers do for missing files.
 class UnreadableMeshes {
  public:
   UnreadableMeshes(MeshCorners& meshes, BuiltScenario& out) : meshes_(meshes), out_(out) {}
 
-  /// `file`: that of the model. `scope`: of the names of its links, such as "rover."
+  /// `file`: path of the model. `scope`: prefix of the names of its links, such as "rover."
   void leave_out(RobotTree& tree, const std::string& file, const std::string& scope);
-  /// Of scenery of a world file. `name`: that of the link.
+  /// Removes shapes from the scenery of a world file. `name`: name of the link.
   void leave_out(std::vector<Shape>& shapes, const TextTable& texts, const std::string& file, const std::string& name);
-  /// A warning for each file.
+  /// Adds a warning for each file.
   void tell() const;
 
  private:
-  /// A file that cannot be read, and the links that lose a shape by it.
+  /// An unreadable file, and the links that lose a shape.
   struct Lost {
     std::string file, mesh;
     std::vector<std::string> links;

@@ -21,7 +21,7 @@ bool is_among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// "3" or "0-4".
+/// Reads "3" or "0-4".
 std::optional<std::pair<int, int>> parse_range(const std::string& text) {
   const char* end = text.data() + text.size();
   int first = 0;
@@ -32,7 +32,7 @@ std::optional<std::pair<int, int>> parse_range(const std::string& text) {
   return std::pair(first, last);
 }
 
-/// `own`: the subsystems of the template.
+/// Checks the changes of a variant. `own`: the subsystems of the template.
 void check_changes(const Node& changes, const std::string& what, const std::vector<std::string>& own,
                    const TakeUnknown& unknown, Problems& problems) {
   for (std::size_t i = 0; i < changes.map.size(); ++i) {

@@ -11,22 +11,22 @@
 
 namespace muro::host {
 
-/// The keys of a robot template that are no subsystems.
+/// Keys of a robot template that are not subsystems.
 extern const std::vector<std::string> template_keys;
 
-/// Robots `first` to `last` of a template have these changes.
+/// Changes of robots `first` to `last` of a template.
 struct Variant {
   int first, last;
   const Node* changes;
 };
 
-/// Reads `variants` of a template of `count` robots, whose other keys `robot` has read. `subsystem_names`: those of
-/// all robots, which may be switched off. `unknown`: is called for changes of what is none of them.
+/// Reads `variants` of a template of `count` robots; `robot` has read its other keys. `subsystem_names`: names of the
+/// subsystems of all robots, which may be switched off. `unknown`: called for changes of other names.
 std::vector<Variant> read_variants(const Node& variants, const MapReader& robot, int count,
                                    const std::vector<std::string>& subsystem_names, const TakeUnknown& unknown,
                                    Problems& problems);
 
-/// The subsystems of a template with the changes of some of its variants. `indices`: of these variants.
+/// Returns the subsystems of a template with the changes of some of its variants. `indices`: indices of these variants.
 Node merged(const Node& subsystems, const std::vector<Variant>& variants, const std::vector<std::size_t>& indices);
 
 }  // namespace muro::host

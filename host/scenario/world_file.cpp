@@ -15,7 +15,7 @@ namespace muro::host {
 
 namespace {
 
-/// Scenery that reaches no higher than this (m) counts as ground, on which robots may stand.
+/// Scenery that is not higher than this (m) counts as ground, on which robots may stand.
 constexpr double floor_height = 0.01;
 
 std::vector<Shape> shapes_of(const RobotTree::Component& component, const KeyInfo& key) {
@@ -127,7 +127,7 @@ void WorldFileContents::add(const std::string& name, const Pose& pose, std::vect
   const bool any_random = std::any_of(scenario_.robots.begin(), scenario_.robots.end(), [](const RobotTemplate& t) {
     return t.placement.kind == Placement::Kind::random;
   });
-  if (!any_random) return;  // nobody asks what is occupied
+  if (!any_random) return;  // nothing uses the occupied places
   for (const Shape& s : collisions) {
     if (s.kind == ShapeKind::plane || s.kind == ShapeKind::heightmap) continue;
     const std::string mesh = s.kind == ShapeKind::mesh ? std::string(world.text(s.mesh)) : "";

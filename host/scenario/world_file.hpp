@@ -15,8 +15,8 @@
 
 namespace muro::host {
 
-/// What the file of `world: {file: ...}` adds to a scenario: gravity, scenery, and models. A model that the scenario
-/// names as a robot (`model: world`) becomes that robot; the others are static.
+/// The contents that the file of `world: {file: ...}` adds to a scenario: gravity, scenery, and models. A model that
+/// the scenario names as a robot (`model: world`) becomes that robot; the others are static.
 class WorldFileContents {
  public:
   /// Warnings and notes of readers go to `out`, errors to `problems`.
@@ -30,13 +30,13 @@ class WorldFileContents {
 
   void read();
   Vec3 gravity() const;
-  /// The scenario's, else that of the file, else the smaller.
+  /// Returns the friction rule of the scenario, or that of the file, or else `min`.
   FrictionRule friction_rule() const;
-  /// Adds all that is static, and to `occupied` what random placement keeps clear of.
+  /// Adds all static bodies, and adds to `occupied` what random placement must avoid.
   void add_scenery(Occupancy& occupied);
-  /// The model that a template takes from the file. Throws SetupError when there is none, or it is no robot.
+  /// Returns the model that a template takes from the file. Throws SetupError when there is none, or it is no robot.
   RobotTree model(const RobotTemplate& t) const;
-  /// Of its base; for a template whose model() was found.
+  /// Returns the pose of the model's base; for a template that has a model().
   const Pose& pose(const RobotTemplate& t) const;
 
  private:

@@ -19,12 +19,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t largest_file = 256u << 20;
-constexpr std::size_t deepest_include = 30;  // with the nesting in each file, what the stack holds
+constexpr std::size_t deepest_include = 30;  // with the nesting in each file, this fits on the stack
 
 /// Reads files and what they include.
 class Loader {
  public:
-  std::vector<std::string> files;  ///< that were read
+  std::vector<std::string> files;  ///< files that were read
 
   /// `included_at`: "file:line:column: " of the include, or empty.
   Node load(const std::string& path, const std::string& included_at) {
@@ -62,7 +62,7 @@ class Loader {
       text.append(block.data(), std::size_t(file.gcount()));
     }
     if (text.size() > largest_file) throw fail(fmt::format("it has more than {} MiB", largest_file >> 20));
-    // the end is where reading stops, or else it has failed
+    // reading stops at the end of the file, or has failed
     if (!file.eof()) throw fail(errno != 0 ? std::strerror(errno) : "the system gives no reason");
     return text;
   }

@@ -8,10 +8,10 @@
 
 namespace muro::host {
 
-/// Reads a file with all its `include:`s; `files` gets their paths. Throws SetupError with file:line:column.
+/// Reads a file and resolves all `include:`s; `files` gets their paths. Throws SetupError with file:line:column.
 Node load_yaml(const std::string& path, std::vector<std::string>* files = nullptr);
 
-/// Reads a value as written on the command line; all of it gets the location `at`.
+/// Reads a value from the command line; all of its nodes get the location `at`.
 Node parse_yaml(const std::string& text, const Location& at);
 
 }  // namespace muro::host

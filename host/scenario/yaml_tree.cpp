@@ -14,8 +14,8 @@ namespace muro::host {
 
 namespace {
 
-constexpr std::size_t max_depth = 100;         // of nesting
-constexpr std::size_t max_values = 1'000'000;  // in one scenario, all its files and aliases together
+constexpr std::size_t max_depth = 100;         // nesting
+constexpr std::size_t max_values = 1'000'000;  // values in one scenario, all its files and aliases together
 
 Location location_of(const YAML::Mark& mark, const TextSource& source) {
   if (!source.is_file || mark.is_null()) return {source.name, 0, 0};
@@ -128,7 +128,7 @@ class TreeBuilder final : public YAML::EventHandler {
       parent.has_key = false;
     } else {
       if (n.kind != Node::Kind::scalar) throw SetupError(n.location.text() + ": a key must be a word");
-      // lines of other files look like this; a message must not show them, for they may be somebody's secrets
+      // lines of other files look like this; a message must not show them, because they may contain secrets
       if (!n.quoted && n.scalar.find(':') != n.scalar.npos)
         throw SetupError(n.location.text() +
                          ": the key here holds a colon; write `key: value` with a blank behind the colon, or put a key "
@@ -141,7 +141,7 @@ class TreeBuilder final : public YAML::EventHandler {
     }
   }
 
-  /// `<<: MAP` or `<<: [MAP, ...]`: keys of these maps where the map has none of its own; earlier maps win.
+  /// Merges `<<: MAP` or `<<: [MAP, ...]`: adds keys of these maps that the map does not have; earlier maps win.
   void merge_key(Node& n) const {
     const Node* key = n.find("<<");
     if (!key) return;
@@ -179,7 +179,7 @@ Node parse_tree(const std::string& text, const TextSource& source, ValueCount& c
     while (parser.HandleNextDocument(tree)) {
     }
   } catch (const YAML::Exception& e) {
-    // what follows a colon is from the file
+    // the text after a colon is from the file
     const std::string reason = e.msg.substr(0, e.msg.find(':'));
     throw SetupError(fmt::format("{}: not YAML: {}", location_of(e.mark, source).text(), reason));
   }

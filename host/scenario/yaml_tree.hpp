@@ -7,17 +7,17 @@
 
 namespace muro::host {
 
-/// The source of a text: lines and columns are part of locations in a file, but not on the command line.
+/// The source of a text. Locations have lines and columns in a file, but not on the command line.
 struct TextSource {
   std::string name;
   bool is_file;
 };
 
-/// Counts the values of a scenario. A short text can expand to very many by aliases of aliases and by files that are
-/// included many times.
+/// Counts the values of a scenario. A short text can expand to very many values, by aliases of aliases and by files
+/// that are included many times.
 class ValueCount {
  public:
-  /// Throws SetupError when there are more than a scenario may have.
+  /// Throws SetupError when there are more than are allowed in a scenario.
   void add(std::size_t values, const Location& at);
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Control code for muro as a C++20 class: muro_controller.h with members, spans and exceptions. Nothing else of muro is
-// needed. Each robot has an object of the class, which may own memory; an exception that leaves one of its functions
-// becomes the text of an error.
+// Control code for muro as a C++20 class: muro_controller.h with members, spans and exceptions. No other part of muro
+// is needed. Each robot has an object of the class, which may own memory. An exception that leaves one of its functions
+// becomes an error message.
 //
 //     class Brake {
 //      public:
@@ -20,10 +20,10 @@
 // A class may also have
 //
 //     static constexpr muro_tunable tunables[] = {...};                            // numbers that the scenario may set
-//     static constexpr muro::controller::Task<Brake> tasks[] = {{"plan", 5, &Brake::plan}};  // Hz; behind plan itself
+//     static constexpr muro::controller::Task<Brake> tasks[] = {{"plan", 5, &Brake::plan}};  // name, Hz, function
 //     static constexpr std::size_t save_size = 16;                                 // all three, for snapshots:
 //     void save(muro::controller::Saver& to) const;                                // at most save_size bytes
-//     void load(muro::controller::Loader& from);                                   // into an object just made
+//     void load(muro::controller::Loader& from);                                   // into a new object
 #pragma once
 
 #include <cstring>
@@ -46,7 +46,7 @@
 
 namespace muro::controller {
 
-/// Writes log lines. To be used within a function of the object that it was given to.
+/// Writes log lines. To be used within functions of the object that it was given to.
 class Log {
  public:
   explicit Log(const muro_log_sink* log) : log_(log) {}
@@ -59,7 +59,7 @@ class Log {
   const muro_log_sink* log_;
 };
 
-/// What an object learns when it is made. Valid during the constructor.
+/// The values that an object gets when it is created. Valid during the constructor.
 class Setup {
  public:
   explicit Setup(const muro_controller_setup& raw) : raw_(raw) {}
@@ -67,13 +67,13 @@ class Setup {
   std::string_view robot() const { return raw_.robot; }
   double period() const { return raw_.period; }       ///< s between steps
   std::uint64_t seed() const { return raw_.seed; }    ///< from the simulation's seed and the robot's name
-  std::uint32_t index() const { return raw_.index; }  ///< of this object among those of the controller, from 0
-  std::uint32_t count() const { return raw_.count; }  ///< of these objects
-  /// Number of elements of input `i`, by place in `inputs`; of a list how many there are now.
+  std::uint32_t index() const { return raw_.index; }  ///< index of this object among those of the controller, from 0
+  std::uint32_t count() const { return raw_.count; }  ///< number of these objects
+  /// Number of elements of input `i`, an index in `inputs`; for a list the present number.
   std::uint32_t input_size(std::size_t i) const { return raw_.input_sizes[i]; }
   std::uint32_t output_size(std::size_t i) const { return raw_.output_sizes[i]; }
-  double tunable(std::size_t i) const { return raw_.tunables[i]; }  ///< by place in `tunables`
-  /// The text behind "name=" among the arguments of the scenario, or `otherwise`.
+  double tunable(std::size_t i) const { return raw_.tunables[i]; }  ///< an index in `tunables`
+  /// Returns the text after "name=" in the arguments of the scenario, or `otherwise`.
   std::string_view argument(std::string_view name, std::string_view otherwise = {}) const {
     for (const char* const* a = raw_.arguments; *a; ++a) {
       const std::string_view text = *a;
@@ -89,14 +89,14 @@ class Setup {
   const muro_controller_setup& raw_;
 };
 
-/// One step. Inputs, outputs and tunables are named by their place in the lists of the class. Valid during the step.
+/// One step. Inputs, outputs and tunables are given by their index in the lists of the class. Valid during the step.
 class Step {
  public:
   explicit Step(const muro_controller_step& raw) : raw_(raw) {}
 
   double time() const { return raw_.time; }           ///< s since the start of the simulation
   double period() const { return raw_.period; }       ///< s between calls of this function
-  std::uint64_t index() const { return raw_.index; }  ///< how often the controller has run before
+  std::uint64_t index() const { return raw_.index; }  ///< number of earlier runs of the controller
   std::span<const double> input(std::size_t i) const { return {raw_.inputs[i], raw_.input_sizes[i]}; }
   std::span<const std::int64_t> integer_input(std::size_t i) const {
     return {raw_.integer_inputs[i], raw_.input_sizes[i]};
@@ -106,7 +106,7 @@ class Step {
   std::span<std::int64_t> integer_output(std::size_t i) const {
     return {raw_.integer_outputs[i], raw_.output_sizes[i]};
   }
-  /// Cuts a text that is too long.
+  /// Sets a text output; a text that is too long is cut.
   void set_text_output(std::size_t i, std::string_view text) const {
     const std::size_t size = text.size() < raw_.output_sizes[i] ? text.size() : raw_.output_sizes[i] - 1;
     std::memcpy(raw_.text_outputs[i], text.data(), size);
@@ -120,13 +120,13 @@ class Step {
   const muro_controller_step& raw_;
 };
 
-/// Takes the bytes of what is saved, up to save_size.
+/// Collects the saved bytes, up to save_size.
 class Saver {
  public:
   explicit Saver(std::span<std::byte> room) : room_(room) {}
 
-  /// Of a type without pointers. Bytes of padding are saved as zeros by compilers that can clear them (GCC from 11 on);
-  /// with others the type has to be free of padding, so that equal states are equal byte by byte.
+  /// Saves a value of a type without pointers. Compilers that can clear bytes of padding (GCC from 11 on) save them as
+  /// zeros; with others the type must have no padding, so that equal states are equal byte by byte.
   template <class T>
   void put(const T& value) {
 #ifdef MURO_CAN_CLEAR_PADDING
@@ -140,7 +140,7 @@ class Saver {
     put(std::span<const T>(&value, 1));
 #endif
   }
-  /// The elements, not their number; of a type without pointers and padding.
+  /// Saves the elements, not their number. The type must have no pointers and no padding.
   template <class T>
   void put(std::span<const T> values) {
     static_assert(std::is_trivially_copyable_v<T>, "save numbers, or structs of numbers");
@@ -155,7 +155,7 @@ class Saver {
   std::size_t used_ = 0;
 };
 
-/// Gives back, in the same order, what was put into a Saver.
+/// Returns what was put into a Saver, in the same order.
 class Loader {
  public:
   explicit Loader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -179,11 +179,11 @@ class Loader {
   std::span<const std::byte> rest_;
 };
 
-/// A function of a class that runs more rarely than `step`.
+/// A function of a class that runs less often than `step`.
 template <class Controller>
 struct Task {
   const char* name;
-  double rate;  ///< Hz; a whole fraction of the controller's
+  double rate;  ///< Hz; the controller's rate divided by a whole number
   void (Controller::*function)(const Step&);
 };
 
@@ -196,7 +196,7 @@ inline void set_error(char* error, std::size_t size, const char* text) {
   error[length] = 0;
 }
 
-/// Calls `function`; returns 0, or 1 with the text of what it has thrown.
+/// Calls `function`; returns 0, or 1 with the text of the exception.
 template <class Function>
 int guarded(char* error, std::size_t size, Function function) noexcept {
   try {
@@ -273,7 +273,7 @@ muro_controller_table make_table() {
 
 }  // namespace detail
 
-/// The table of a class.
+/// Returns the table of a class.
 template <class C>
 const muro_controller_table* table_of() {
   static const muro_controller_table table = detail::make_table<C>();
@@ -282,6 +282,6 @@ const muro_controller_table* table_of() {
 
 }  // namespace muro::controller
 
-/// Makes a class the control code of this library; once, outside of namespaces.
+/// Makes a class the control code of this library. To be used once, outside of namespaces.
 #define MURO_CONTROLLER(CLASS) \
   const muro_controller_table* muro_controller(void) { return muro::controller::table_of<CLASS>(); }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * Elementary functions with equal bits on every machine, for control code: those of <math.h> are chosen by processor,
+ * Elementary functions with equal bits on every machine, for control code. Those of <math.h> depend on the processor,
  * with fused multiply-add or without, and differ in the last bit. C11 and C++. Link muro::elementary, or -lsleef, and
- * compile with -ffp-contract=off, which has a processor with fused multiply-add do no more than the others.
+ * compile with -ffp-contract=off, so that the compiler itself does not use fused multiply-add.
  *
  * They are those of SLEEF without fused multiply-add, at most 1 ulp from the true value, with the special values of C
  * (annex F); angles are in rad. Functions of <math.h> with exact results are equal everywhere by themselves and have
@@ -48,7 +48,7 @@ typedef struct {
 } muro_sine_and_cosine;
 muro_sine_and_cosine muro_sincos_by_value(double angle) MURO_BY_SLEEF(sincosd1_u10);
 
-/* Both at little more than the price of one. The last bit may differ from that of muro_sin and muro_cos. */
+/* Sine and cosine for little more than the cost of one. The last bit may differ from that of muro_sin and muro_cos. */
 static inline void muro_sincos(double angle, double* sine, double* cosine) {
   const muro_sine_and_cosine both = muro_sincos_by_value(angle);
   *sine = both.sine;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A plugin's description as JSON text. Written at build time, read by the host in place of the plugin.
+// A plugin's description as JSON text. Written at build time; the host reads it instead of loading the plugin.
 #pragma once
 
 #include <cmath>
@@ -60,7 +60,7 @@ inline Json json_of(const PropertyUse& u) {
 Json json_of(const AlgorithmEntry& entry);
 Json json_of(const ReaderEntry& entry);
 
-/// [a, b, ...] of what json_of() makes of the elements.
+/// Returns [a, b, ...] of the json_of() of all elements.
 template <class Elements>
 Json list_of(const Elements& elements) {
   Json list = Json::array();
@@ -114,12 +114,12 @@ inline Json json_of(const PluginTable& t) {
           {"readers", list_of(t.readers)}};
 }
 
-/// What is no UTF-8 is replaced: no text of a plugin makes this fail.
+/// Bytes that are not UTF-8 are replaced, so no text of a plugin makes this fail.
 inline std::string text_of(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace); }
 
 }  // namespace detail
 
-/// Ties a description file to the library it was made from: the hash of the description's text.
+/// Returns the hash of the description's text, which ties a description file to the library it was made from.
 inline std::string token(const PluginTable& table) {
   const std::uint64_t hash = fnv1a(detail::text_of(detail::json_of(table)));
   std::string out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// muro_describe PLUGIN.so OUT.json: loads a plugin and writes what it says of itself.
+// muro_describe PLUGIN.so OUT.json: loads a plugin and writes its description.
 #include <dlfcn.h>
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace {
 
-/// Whether this thread still computes with subnormal numbers, as IEEE 754 wants it.
+/// Whether this thread still computes with subnormal numbers, as IEEE 754 requires.
 bool has_subnormals() {
   const volatile double smallest_normal = std::numeric_limits<double>::min();
   return smallest_normal / 2 > 0;

@@ -9,10 +9,10 @@ namespace {
 
 using namespace muro;
 
-// A property of this plugin's own. Others bind it by the same name, unit and type.
+// A property that this plugin defines. Others bind it by the same name, unit and type.
 constexpr Key<double> speed{"speedometer.speed", "m/s", "what the needle shows"};
 
-// What the user can set, and what the world should know. All of it is constant and costs nothing at run time.
+// Settings for the user, and the description of the algorithm. All of it is constant and costs nothing at run time.
 constexpr Parameter parameters[] = {
     real("time_constant", "s", 0.2, "after a jump of the speed, the needle has gone 63 % of the way")
         .between(1e-6, 1e3),
@@ -32,7 +32,7 @@ constexpr Description description{
 
 class Speedometer final : public Algorithm {
  public:
-  // Once: take the parameters, bind every property of every item. (Where each item is a robot as a whole, the base
+  // Runs once: reads the parameters and binds every property of every item. (When each item is a whole robot, the base
   // PerRobotAlgorithm of muro/toolkit/per_robot.hpp has this loop; examples/plugin uses it.)
   void connect(Connector& c) override {
     time_constant_ = c.parameters().real("time_constant");
@@ -40,7 +40,7 @@ class Speedometer final : public Algorithm {
       needles_.push_back({c.read(item.object, keys::twist), c.variable(item.object, speed, 0.0)});
   }
 
-  // Many times: serve the items of the range, each from its own properties alone.
+  // Runs many times: serves the items of the range, each only from its own properties.
   //
   // The lag dy/dt = (v - y) / T, solved exactly for the constant v of one period:
   // y(t + dt) = v + (y(t) - v) exp(-dt / T). The first run only sees the start.
@@ -55,8 +55,8 @@ class Speedometer final : public Algorithm {
   }
 
  private:
-  // Handles and parameters. The state, the speed that the needle shows, is a property: so it is saved, restored,
-  // recorded.
+  // Handles and parameters. The state, which is the speed that the needle shows, is a property: so it is saved,
+  // restored and recorded.
   struct Needle {
     In<Twist> twist;
     Out<double> speed;

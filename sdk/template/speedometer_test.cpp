@@ -18,7 +18,7 @@ TEST(Speedometer, ApproachesAConstantSpeedAsAFirstOrderLag) {
   simulation.build();
   simulation.world().value(rover.base(), keys::command_twist).linear = Vec3(3, 4, 0);
   for (int second = 1; second <= 3; ++second) {
-    // the instant at the end belongs to the next stretch: the last run was one period before
+    // the instant at the end belongs to the next stretch: the last run was one period earlier
     simulation.run_for(1);
     EXPECT_NEAR(simulation.world().value(rover.base(), speed), 5 * (1 - std::exp(-(second - 0.02) / 0.5)), 1e-9);
   }

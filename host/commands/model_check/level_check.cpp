@@ -13,7 +13,7 @@ namespace muro::host {
 
 namespace {
 
-/// The motion of a template: what it is called, and whether it fixes the base.
+/// The motion of a template: its name, and whether it fixes the base.
 struct OwnMotion {
   std::string name;
   bool fixed_base = false;
@@ -33,7 +33,7 @@ std::optional<OwnMotion> motion_of(const RobotTemplate& t, const Registry& regis
   return {};
 }
 
-/// The first mistake, without its place, no longer than a line.
+/// Returns the first mistake, without its place, not longer than a line.
 std::string brief(std::string text) {
   text = text.substr(0, text.find('\n'));
   constexpr std::string_view place = "cannot be connected: ";
@@ -42,7 +42,7 @@ std::string brief(std::string text) {
   return text.size() > most ? text.substr(0, text.rfind(' ', most)) + " ..." : text;
 }
 
-/// What would happen with another motion, in words.
+/// Describes what would happen with another motion.
 std::string verdict(const ScenarioOptions& options, const std::string& robots, const OwnMotion& own,
                     const CatalogEntry& motion, Registry& registry) {
   try {

@@ -9,8 +9,8 @@
 
 namespace muro::host {
 
-/// How each motion that is installed would serve the robots of each template: the scenario is built once for each of
-/// them. A motion keeps `base: fixed` where it knows it; other parameters are left out.
+/// Returns lines that say how each installed motion would serve the robots of each template. The scenario is built once
+/// for each of them. A motion keeps `base: fixed` if it knows this parameter; other parameters are left out.
 std::vector<std::string> level_lines(const ScenarioOptions& options, const BuiltScenario& built, Registry& registry,
                                      Length length);
 

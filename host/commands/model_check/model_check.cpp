@@ -18,7 +18,7 @@ std::string counted(const std::vector<std::string>& names, const char* noun, std
   return fmt::format("{} ({})", plural(names.size(), noun), first_of(names, most));
 }
 
-/// Templates of which the same is said.
+/// Templates with the same findings.
 struct Block {
   std::vector<std::string> templates;
   std::size_t robots = 0;
@@ -26,7 +26,7 @@ struct Block {
   std::vector<Finding> findings;
 };
 
-/// Adds what a second motion of the same robot lacks, each once.
+/// Adds what a second motion of the same robot lacks, each finding once.
 void add_findings(std::vector<Finding>& all, const std::vector<Finding>& more) {
   for (const Finding& f : more) {
     const auto same = std::find_if(all.begin(), all.end(), [&](const Finding& k) { return k.what == f.what; });
@@ -47,7 +47,7 @@ void add_findings(std::vector<Finding>& all, const std::vector<Finding>& more) {
   }
 }
 
-/// "motion.ode, motion.bullet: joints follow ..."
+/// Returns "motion.ode, motion.bullet: joints follow ..."
 std::string text_of(const Effect& e) { return e.motions.empty() ? e.text : comma_separated(e.motions) + ": " + e.text; }
 
 class ModelCheck {
@@ -141,7 +141,7 @@ void add_text(const Block& b, std::size_t names, std::vector<std::string>& lines
 
 std::string first_of(const std::vector<std::string>& names, std::size_t most) {
   std::string text;
-  const std::size_t shown = names.size() <= most + 1 ? names.size() : most;  // "and 1 more" is no shorter than a name
+  const std::size_t shown = names.size() <= most + 1 ? names.size() : most;  // "and 1 more" is not shorter than a name
   for (std::size_t i = 0; i < shown; ++i) text += fmt::format("{}`{}`", i > 0 ? ", " : "", names[i]);
   return shown < names.size() ? fmt::format("{} and {} more", text, names.size() - shown) : text;
 }

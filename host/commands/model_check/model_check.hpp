@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the models of a scenario lack for the motions that move them: the text of `muro check`.
+// A check of what the models of a scenario lack for the motions that move them: the text of `muro check`.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace muro::host {
 
-/// What follows from something that a model lacks.
+/// A consequence of something that a model lacks.
 struct Effect {
   std::string text;                  ///< "joints follow targets of position or velocity within limits, without forces"
-  std::vector<std::string> motions;  ///< where it does: "motion.ode"; none: with any
+  std::vector<std::string> motions;  ///< motions with this effect: "motion.ode"; empty: all
 
   bool operator==(const Effect&) const = default;
 };
@@ -27,7 +27,7 @@ struct Finding {
   bool operator==(const Finding&) const = default;
 };
 
-/// A motion as far as models concern it.
+/// Data of a motion that concern models.
 struct CheckedMotion {
   std::string id;  ///< "motion.ode"
   Features features = 0;
@@ -35,19 +35,19 @@ struct CheckedMotion {
   ModelFacts::Names held, freed;  ///< joints that nothing commands and the scenario leaves open; `freed`: with stops
 };
 
-/// What a model lacks for one motion. `names`: how many are named of each list.
+/// Finds what a model lacks for one motion. `names`: number of names shown of each list.
 std::vector<Finding> findings_of(const ModelFacts& facts, const CheckedMotion& motion, std::size_t names);
 
 enum class Length {
-  screen,  ///< about forty lines: the first few of what is alike
+  screen,  ///< about forty lines: only the first few of similar entries
   full,
 };
 
-/// Templates whose robots lack the same, in the order of the scenario, with their findings, and a line for all that
+/// Templates whose robots lack the same, in the order of the scenario, with their findings, and one line for all that
 /// lack nothing. Robots without a motion are left out.
 std::vector<std::string> check_lines(const BuiltScenario& built, Length length);
 
-/// "`a`, `b`, `c` and 4 more".
+/// Returns "`a`, `b`, `c` and 4 more".
 std::string first_of(const std::vector<std::string>& names, std::size_t most);
 
 }  // namespace muro::host

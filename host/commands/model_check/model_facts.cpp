@@ -11,13 +11,13 @@ namespace muro::host {
 
 namespace {
 
-/// "joint" of "robot/joint".
+/// Returns "joint" for "robot/joint".
 std::string name_in(const RobotView& robot, const World& world, ObjectId object) {
   const std::string& name = world.object_name(object);
   return name.size() > robot.name.size() + 1 ? name.substr(robot.name.size() + 1) : name;
 }
 
-/// Whether an algorithm writes a velocity or position that the joint is to follow.
+/// Whether an algorithm writes a velocity or position target of the joint.
 bool is_driven(const World& world, ObjectId joint) {
   return world.is_written(joint, keys::joint_velocity_target.name) ||
          world.is_written(joint, keys::joint_position_target.name);

@@ -15,7 +15,7 @@ namespace muro::host {
 
 namespace {
 
-/// A motion that does not support `cause` supports none of `implied`.
+/// A motion that does not support `cause` supports none of `implied` either.
 struct Implication {
   Features cause, implied;
 };
@@ -69,11 +69,11 @@ class Search {
  private:
   struct Origin {
     const RobotTemplate* robots = nullptr;
-    std::size_t index = 0;  ///< of the robot within the template
+    std::size_t index = 0;  ///< index of the robot within the template
     const std::vector<Subsystem>& subsystems() const { return robots->subsystems[index]; }
   };
   struct Found {
-    std::uint32_t robot;  ///< the first
+    std::uint32_t robot;  ///< number of the first robot
     UnsupportedFeatures unsupported;
   };
 
@@ -97,7 +97,7 @@ class Search {
     }
   }
 
-  /// Robots of a template with the same subsystems use the same features.
+  /// Whether no earlier robot of the template has the same subsystems: such robots use the same features.
   bool is_first_of_its_kind(const RobotView& robot, const AlgorithmSetup& motion) {
     const Origin& origin = origins_[index_of(robot.id)];
     std::string kind = origin.robots->name + " " + motion.use;
@@ -105,7 +105,7 @@ class Search {
     return seen_.insert(std::move(kind)).second;
   }
 
-  /// What was found for the robot's template and this motion.
+  /// Returns the findings for the robot's template and this motion.
   UnsupportedFeatures& found_for(const RobotView& robot, const AlgorithmSetup& motion) {
     const Origin& origin = origins_[index_of(robot.id)];
     for (Found& f : found_)

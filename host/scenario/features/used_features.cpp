@@ -52,14 +52,14 @@ class FeatureSearch {
   void add_if(bool used, Features bit, std::string amount = "") {
     if (used) used_.push_back({bit, std::move(amount)});
   }
-  /// The number of links for whose index `test` holds.
+  /// Number of links whose index passes `test`.
   template <class Test>
   std::size_t count_joints(Test test) const {
     std::size_t n = 0;
     for (std::size_t i = 0; i < robot_.links.size(); ++i) n += test(i) ? 1 : 0;
     return n;
   }
-  /// Adds a feature when there are joints for which `test` of the link's index holds.
+  /// Adds a feature when there are joints of links whose index passes `test`.
   template <class Test>
   void add_for_joints(Features bit, Test test) {
     const std::size_t n = count_joints(test);
@@ -92,21 +92,21 @@ class FeatureSearch {
     add_for_joints(feature_joint_limits,
                    with_limits([](const JointLimits& l) { return is_finite(l.lower) || is_finite(l.upper); }));
     add_for_joints(feature_joint_speed_limits, with_limits([](const JointLimits& l) { return is_finite(l.velocity); }));
-    if (has_mass()) {  // else no effort moves a joint, whatever its limits and losses are
+    if (has_mass()) {  // otherwise no effort moves a joint, with any limits and losses
       add_for_joints(feature_joint_effort_limits,
                      with_limits([](const JointLimits& l) { return is_finite(l.effort); }));
       add_for_joints(feature_joint_damping, with_limits([](const JointLimits& l) { return l.damping > 0; }));
       add_for_joints(feature_joint_friction, with_limits([](const JointLimits& l) { return l.friction > 0; }));
       add_for_joints(feature_armature, with_limits([](const JointLimits& l) { return l.armature > 0; }));
     }
-    // a mimic joint whose position is no variable of the motion is moved by kinematics
+    // a mimic joint is moved by kinematics when its position is no variable of the motion
     add_for_joints(feature_mimic_joints, [&](std::size_t i) {
       const Link& link = robot_.links[i];
       return link.mimic >= 0 && world_.is_used(link.joint_object, keys::joint_position.name, usage::variable);
     });
   }
 
-  /// Whether the joint changes the robot's centre of mass or inertia; that of a balanced wheel does not.
+  /// Whether the joint changes the robot's centre of mass or inertia; the joint of a balanced wheel does not.
   bool moves_mass(std::size_t joint, const Inertia& composite) const {
     const double size = std::sqrt(composite.tensor().trace() / composite.mass);
     for (const double displacement : {1.0, -0.7}) {
@@ -124,7 +124,7 @@ class FeatureSearch {
   }
   static constexpr double tolerance = 1e-4;  ///< relative to the robot's size and inertia
 
-  /// Whether the principal moments of inertia differ: angular velocity and momentum are not parallel then.
+  /// Whether the principal moments of inertia differ: then angular velocity and momentum are not parallel.
   static bool has_unequal_moments(const Inertia& composite) {
     const Mat3 tensor = composite.tensor();
     return (tensor - tensor.trace() / 3 * Mat3::Identity()).norm() > 0.01 * tensor.norm();
@@ -149,7 +149,7 @@ class FeatureSearch {
     add_if(has_restitution, feature_restitution);
     add_if(rolls, feature_rolling_resistance);
     add_if(spins, feature_spinning_resistance);
-    if (!use_.own_contacts) return;  // else collision detection checks its meshes and heightmaps
+    if (!use_.own_contacts) return;  // otherwise collision detection checks its meshes and heightmaps
     add_if(scenery_.heightmaps > 0, feature_heightmaps, plural(scenery_.heightmaps, "heightmap"));
     if (meshes + scenery_.meshes == 0) return;
     const std::string own = meshes > 0 ? fmt::format("{} of its own", meshes) : "";
@@ -163,8 +163,8 @@ class FeatureSearch {
   const SceneryTraits& scenery_;
   const RobotView& robot_;
   const MotionUse& use_;
-  std::vector<Inertia> inertias_;           ///< of each link
-  std::vector<bool> is_independent_joint_;  ///< of each link: its joint is movable and mimics no other
+  std::vector<Inertia> inertias_;           ///< by link
+  std::vector<bool> is_independent_joint_;  ///< by link: its joint is movable and mimics no other
   std::vector<UsedFeature> used_;
 };
 

@@ -17,7 +17,7 @@ namespace muro::host {
 
 namespace {
 
-/// What the record commands, where the scenario takes it.
+/// The commands of a record, for those that the scenario takes.
 class RecordedCommands {
  public:
   RecordedCommands(Simulation& simulation, const std::string& joint)
@@ -48,8 +48,8 @@ class RecordedCommands {
 
 std::int64_t whole_ns(double seconds) { return std::llround(seconds * 1e9); }
 
-/// The joint at any time of the simulation, as its servo measures it. Its motion knows it at instants; in between it is
-/// interpolated.
+/// The joint at any time of the simulation, as its servo measures it. Its motion computes it at instants; between them
+/// it is interpolated.
 class SimulatedJoint {
  public:
   SimulatedJoint(Simulation& simulation, const std::string& joint)
@@ -66,7 +66,7 @@ class SimulatedJoint {
         rate_ = instance->setup().rate, phase_ = instance->setup().phase;
   }
 
-  /// Now it is at the measured `position` (rad) and moves with `velocity` (rad/s).
+  /// Puts the joint at the measured `position` (rad), with `velocity` (rad/s), now.
   void put(double position, double velocity) {
     position += offset_;
     from_ = simulation_.now(), from_position_ = position;
@@ -76,7 +76,7 @@ class SimulatedJoint {
     simulation_.tell_of_change();
   }
 
-  /// Runs until `time` (ns); the measured position, rad.
+  /// Runs until `time` (ns); returns the measured position, rad.
   double position_at(std::int64_t time) {
     const std::int64_t before = last_instant_before(time);
     if (before >= simulation_.now()) {
@@ -91,11 +91,11 @@ class SimulatedJoint {
 
  private:
   std::uint64_t run_from(std::int64_t time) const { return time <= phase_ ? 0 : rate_.first_from(time - phase_); }
-  /// Of the motion, at `time` or later.
+  /// Returns the instant of the motion at `time` or later.
   std::int64_t instant_from(std::int64_t time) const {
     return rate_.on_demand() ? time : phase_ + rate_.time_of(run_from(time));
   }
-  /// Negative: there is none.
+  /// Returns the last instant before `time`; negative: there is none.
   std::int64_t last_instant_before(std::int64_t time) const {
     const std::uint64_t next = rate_.on_demand() ? 0 : run_from(time);
     return next == 0 ? -1 : phase_ + rate_.time_of(next - 1);
@@ -104,14 +104,14 @@ class SimulatedJoint {
   Simulation& simulation_;
   double& position_;
   double* velocity_ = nullptr;
-  double offset_ = 0;  ///< rad: of the servo's encoder, the true position less the measured one
-  Rate rate_;          ///< of the motion
+  double offset_ = 0;  ///< rad, of the servo's encoder: true position minus measured position
+  Rate rate_;          ///< rate of the motion
   std::int64_t phase_ = 0;
-  std::int64_t from_ = 0, to_ = 0;  ///< instants around the present time; `position_` is that of the second
+  std::int64_t from_ = 0, to_ = 0;  ///< instants around the present time; `position_` belongs to the second
   double from_position_ = 0;
 };
 
-/// Simulates a part of the record without gaps, from now on.
+/// Simulates a part of the record without gaps, starting now.
 void follow_segment(Simulation& simulation, const RecordedCommands& commands, SimulatedJoint& joint,
                     const MotorRecord& record, const RecordSegment& segment, Residuals& residuals) {
   const std::int64_t start = simulation.now();
@@ -139,7 +139,7 @@ RecordError error_of(const Residuals& residuals) {
   return e;
 }
 
-/// What is to be known of the comparison beside its figures.
+/// Returns the notes on a comparison, in addition to its figures.
 std::vector<std::string> notes_on(const MotorRecord& record, const PreparedRecord& prepared) {
   std::vector<std::string> notes = record.notes;
   std::string gaps;

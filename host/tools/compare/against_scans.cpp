@@ -15,14 +15,14 @@ namespace muro::host {
 
 namespace {
 
-/// A number that a scanner has left on its object; NaN where there is none.
+/// Returns a number that a scanner has stored on its object; NaN when there is none.
 template <class T>
 double constant_of(const World& world, ObjectId object, const Key<T>& key) {
   const T* const found = world.find_constant(object, key);
   return found ? double(*found) : no_range;
 }
 
-/// What a scanner writes, and who writes it.
+/// The readings of a scanner, and the algorithm that writes them.
 class ScannerReadings {
  public:
   ScannerReadings(Simulation& simulation, const std::string& sensor)
@@ -45,7 +45,7 @@ class ScannerReadings {
 
   bool has_errors() const { return has_errors_; }
   std::vector<double> present() const { return values_of(*read_); }
-  /// Without errors; no_range where nothing is seen.
+  /// Returns the ranges without errors; no_range where nothing is seen.
   std::vector<double> truth() const {
     std::vector<double> ranges = values_of(*truth_);
     const double most = constant_of(simulation_.world(), object_, keys::laser_max_range);
@@ -59,7 +59,7 @@ class ScannerReadings {
     return simulation_.world().value(object_, keys::pose);
   }
 
-  /// Directions and limits, without ranges.
+  /// Returns a record with directions and limits, without ranges.
   ScanRecord empty_record() const {
     const World& world = simulation_.world();
     ScanRecord r;
@@ -86,13 +86,13 @@ class ScannerReadings {
   std::int64_t phase_ = 0;
 };
 
-/// Outside of these a reading tells no distance.
+/// Removes readings outside of the device's range, which are no distances.
 void limit_to_device(ScanRecord& r) {
-  constexpr double just = 1e-9;  // m; what reads range_max has not been seen
+  constexpr double just = 1e-9;  // m; a reading of range_max means that nothing was seen
   r.limit(std::max(r.range_min, just), r.range_max - just);
 }
 
-/// For each beam of the record the true range of the ray that looks there.
+/// Returns, for each beam of the record, the true range of the ray in this direction.
 std::vector<double> true_ranges_for(const ScanRecord& record, const SimulatedScans& simulated) {
   const std::vector<double>& angles = simulated.scans.angles;
   std::vector<double> all;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double width = 760, height = 484, legend_height = 30;
 constexpr double left = 84, right = 736, top = 72, bottom = 420;  // of the area of points
-constexpr double strip = 34;                                      // for zeros, beyond a gap
+constexpr double strip = 34;                                      // for zeros, after a gap
 constexpr double gap = 8;
 constexpr double text_size = 13, character_width = 7.2;
 constexpr double radius = 5.5;
@@ -50,11 +50,11 @@ std::string tick_text(double value) {
   return fmt::format("{:.0e}", value);
 }
 
-/// From values to coordinates: `from` is that of the smallest value, `to` that of the largest.
+/// Converts values to coordinates: `from` is that of the smallest value, `to` that of the largest.
 struct LogScale {
   double from, to;
   double low = 0, high = 1;  ///< decades
-  bool zeros = false;        ///< whether there are values that have no logarithm
+  bool zeros = false;        ///< whether there are values without a logarithm
   double zero = 0;           ///< their coordinate
 
   void fit(std::vector<double> values) {
@@ -71,7 +71,7 @@ struct LogScale {
   double coordinate(double value) const {
     return value > 0 ? from + (elementary::log10(value) - low) / (high - low) * (to - from) : zero;
   }
-  /// Values at which there is a tick; `labelled`: those with a number.
+  /// Returns the values with a tick; second: whether the tick has a number.
   std::vector<std::pair<double, bool>> ticks() const {
     std::vector<std::pair<double, bool>> all;
     for (int decade = int(std::floor(low)); decade <= int(std::ceil(high)); ++decade)
@@ -173,7 +173,7 @@ class Drawing {
     return fmt::format("{:.1f},{:.1f} ", x_.coordinate(x), y_.coordinate(y));
   }
 
-  /// What may leave the area is cut off at its frame.
+  /// Cuts off the following elements at the frame of the area.
   void begin_clip() { out_ += "<g clip-path=\"url(#area)\">\n"; }
   void add_clip() {
     if (chart_.bands.empty() && chart_.curves.empty()) return;
@@ -210,7 +210,7 @@ class Drawing {
     for (const Chart::Curve& c : chart_.curves) add_curve_label(c);
   }
 
-  /// Beside the first or last point that is within the area.
+  /// Puts the label beside the first or last point within the area.
   void add_curve_label(const Chart::Curve& c) {
     if (c.label.empty()) return;
     const auto is_inside = [&](const std::pair<double, double>& p) {
@@ -222,7 +222,7 @@ class Drawing {
     if (first == c.points.end()) return;
     const auto& [x, y] = c.label_first ? *first : *last;
     const double width_of_label = character_width * double(c.label.size());
-    const bool falls = c.points.back().second < c.points.front().second;  // then there is room on its right
+    const bool falls = c.points.back().second < c.points.front().second;  // then there is space on its right
     const bool fits = x_.coordinate(x) + width_of_label + 8 < right;
     const bool begins = fits && (falls || c.label_first);
     out_ += text(x_.coordinate(x) + (begins ? 7 : -5), y_.coordinate(y) + (falls && !fits ? 14 : -5),
@@ -230,7 +230,7 @@ class Drawing {
                  "font-size=\"12\" fill=\"#555\" paint-order=\"stroke\" stroke=\"white\" stroke-width=\"3\"");
   }
 
-  /// One frame for each part of the area: where an axis is broken, a gap is between them.
+  /// Draws a frame for each part of the area: a broken axis has a gap between them.
   void add_frames() {
     const auto frame = [&](double x1, double y1, double x2, double y2) {
       out_ += fmt::format("<rect class=\"frame\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n", x1,
@@ -264,7 +264,7 @@ class Drawing {
     }
   }
 
-  /// Beside its point, or farther away and with a line to it: where it overlaps least with points and other labels.
+  /// Puts a label beside its point, or farther away with a line to it, where it overlaps points and other labels least.
   void add_label(std::size_t i) {
     const Chart::Point& p = chart_.points[i];
     const double x = x_.coordinate(p.x), y = y_.coordinate(p.y), w = character_width * double(p.label.size());
@@ -284,7 +284,7 @@ class Drawing {
     occupied_.push_back(best);
     if (label_distance > 10)
       out_ += line(x, y, std::clamp(x, best.x1, best.x2), std::clamp(y, best.y1, best.y2), "lead");
-    const bool beside = std::abs(side) > 0.1;  // then the text begins or ends at the point, whatever its length
+    const bool beside = std::abs(side) > 0.1;  // then the text begins or ends at the point, with any length
     out_ += text(!beside ? (best.x1 + best.x2) / 2 : (side > 0 ? best.x1 : best.x2), best.y2 - 2.5,
                  !beside ? "middle" : (side > 0 ? "start" : "end"), p.label,
                  "paint-order=\"stroke\" stroke=\"white\" stroke-width=\"3\"");
@@ -303,7 +303,7 @@ class Drawing {
   const Chart& chart_;
   LogScale x_{.from = left, .to = right};
   LogScale y_{.from = bottom, .to = top};
-  std::vector<Box> occupied_;  ///< by points and labels
+  std::vector<Box> occupied_;  ///< areas of points and labels
   std::string out_;
 };
 

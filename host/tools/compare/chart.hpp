@@ -7,8 +7,8 @@
 
 namespace muro::host {
 
-/// A chart of labelled points and curves with logarithmic axes. Values of 0 and less, which have no logarithm, are
-/// drawn in a separate strip that is marked 0.
+/// A chart of labelled points and curves with logarithmic axes. Values of 0 and less have no logarithm; they are drawn
+/// in a separate strip with the mark 0.
 struct Chart {
   struct Axis {
     std::string name, unit;
@@ -32,7 +32,7 @@ struct Chart {
     std::vector<std::pair<double, double>> points;
     std::size_t group = 0;     ///< index in `groups`; decides the colour
     bool guide = false;        ///< dashed and grey; the axes are not chosen to show it
-    bool label_first = false;  ///< its label stands where it enters the area, else where it leaves it
+    bool label_first = false;  ///< the label is where the curve enters the area, otherwise where it leaves it
   };
   /// The area between two curves of the same x, shaded.
   struct Band {
@@ -43,13 +43,13 @@ struct Chart {
   Axis x, y;
   std::vector<Point> points;
   std::vector<Mark> marks;
-  std::vector<std::string> groups;  ///< for the legend; none: no legend
+  std::vector<std::string> groups;  ///< for the legend; empty: no legend
   std::vector<Curve> curves{};
   std::vector<Band> bands{};
 };
 
-/// The chart as an SVG file, 760 units wide. Labels are placed so that they overlap neither points nor each other, as
-/// far as possible.
+/// Returns the chart as an SVG file, 760 units wide. Labels are placed so that they overlap points and other labels as
+/// little as possible.
 std::string svg(const Chart& chart);
 
 }  // namespace muro::host

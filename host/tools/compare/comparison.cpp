@@ -18,7 +18,7 @@ constexpr double max_warm_up = 1;  ///< s, simulated
 
 std::int64_t ns(double seconds) { return std::llround(seconds * 1e9); }
 
-/// The fraction of the cost of an instance that belongs to the varied algorithms.
+/// Fraction of the cost of an instance that belongs to the varied algorithms.
 double varied_fraction(const AlgorithmSetup& s, const Description& d, const Comparison& comparison,
                        const Variation& variation) {
   for (std::size_t v = 0; v < comparison.factors.size(); ++v) {
@@ -35,7 +35,7 @@ double varied_fraction(const AlgorithmSetup& s, const Description& d, const Comp
   return 0;
 }
 
-/// Seconds so far; `total` is the sum of all algorithms.
+/// Returns the seconds so far; `total` is the sum over all algorithms.
 Cost cost_so_far(const Simulation& simulation, const Comparison& comparison, const Variation& variation) {
   Cost c;
   for (std::size_t i = 0; i < simulation.instances().size(); ++i) {
@@ -51,7 +51,7 @@ Cost cost_so_far(const Simulation& simulation, const Comparison& comparison, con
   return c;
 }
 
-/// None when it cannot be made; `reason` gets why.
+/// Returns null when it cannot be created; `reason` then gets the reason.
 std::unique_ptr<ContactMonitor> make_monitor(Simulation& simulation, const Comparison& comparison,
                                              std::string& reason) {
   try {
@@ -62,7 +62,7 @@ std::unique_ptr<ContactMonitor> make_monitor(Simulation& simulation, const Compa
   }
 }
 
-/// Runs to the end, and records poses and contacts on the way.
+/// Runs to the end, and records poses and contacts.
 void record(Simulation& simulation, const Comparison& comparison, VariationResult& result) {
   const std::int64_t end = ns(comparison.duration);
   Trajectory trajectory(comparison.robots);
@@ -142,7 +142,7 @@ VariationResult run_variation(const Comparison& comparison, const Variation& var
       record(*built.simulation, comparison, result);
       recorded_hash = built.simulation->state_hash();
     }
-    // the first run has logged it
+    // the first run has logged the messages
     const BuiltScenario built = build_variation(comparison, variation, registry, [](LogLevel, std::string_view) {});
     measure(*built.simulation, comparison, variation, result);
     result.repeatable = recorded_hash == built.simulation->state_hash();

@@ -39,8 +39,8 @@ ContactMonitor::ContactMonitor(Simulation& monitored, const std::vector<std::uin
       if (scene_.instances()[i]->description().kind == kind) tasks_.push_back(scene_.task_of(i));
 }
 
-/// A collision shape of the monitored scene for `owner`, the World or RobotTree that it goes to. Solvers hold bodies a
-/// little apart, or let them overlap; so shapes of robots are grown on all sides.
+/// Returns a collision shape of the monitored scene for `owner`, the World or RobotTree that gets it. Solvers hold
+/// bodies a little apart, or let them overlap; so shapes of robots are enlarged on all sides.
 template <class Owner>
 Shape ContactMonitor::copy_of(Shape shape, double grown_by, Owner& owner) const {
   shape.texture = no_text;

@@ -15,30 +15,30 @@ namespace muro::host {
 /// Detects contacts of robots from outside, in the same way for all motions.
 ///
 /// Engines report contacts in ways that cannot be compared: a list of points, the sum of forces on a body, nothing. So
-/// the monitor copies the bodies and the scenery of the monitored scene into a scene of its own. There it moves them at
-/// regular intervals to their present poses, and collision detection finds which of them touch. Contacts with the
-/// ground do not count: those with planes, and those that exist at the first update.
+/// the monitor copies the bodies and the scenery of the monitored scene into a scene of its own. There it moves the
+/// bodies at regular intervals to their present poses, and collision detection finds which of them touch. Contacts with
+/// the ground do not count: those with planes, and those that exist at the first update.
 class ContactMonitor {
  public:
   static constexpr std::int64_t period = 10'000'000;  ///< ns between updates
   static constexpr double margin = 0.001;             ///< m: bodies that are closer than this touch
   static constexpr double separation = 0.1;           ///< s: a pair that is apart for longer begins a new contact
 
-  /// Counts contacts of those of `robots` (numbers) that forces move. `algorithms`: of the scenario; collision
-  /// detection and scene index are taken from there, or are the default ones. Throws SetupError when there are none.
+  /// Counts contacts of those of `robots` (numbers) that forces move. `algorithms`: the algorithms of the scenario; its
+  /// collision detection and scene index are used, or else the default ones. Throws SetupError when there are none.
   ContactMonitor(Simulation& monitored, const std::vector<std::uint32_t>& robots,
                  const std::vector<Subsystem>& algorithms);
 
   /// To be called every `period`.
   void update();
 
-  /// Whether there is a robot whose contacts count.
+  /// Whether there is a robot with contacts that count.
   bool is_active() const { return active_; }
-  std::size_t contacts() const { return contacts_; }                      ///< that have begun, by pairs of bodies
+  std::size_t contacts() const { return contacts_; }                      ///< those that have begun, by pairs of bodies
   std::optional<double> first_contact() const { return first_contact_; }  ///< s
 
  private:
-  /// Number of a robot and what it touches: another robot, or an object of the scenery.
+  /// Number of a robot and the touched object: another robot, or an object of the scenery.
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
   struct Body {
     std::uint32_t robot;

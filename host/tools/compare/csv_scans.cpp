@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scans as a table: lines `# name: value`, a header, a scan a line; as recorder.csv writes it, too.
+// Scans as a table: lines `# name: value`, a header, and one line for each scan; recorder.csv writes this form too.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -19,7 +19,7 @@ std::string_view bare(std::string_view s) {
   return s;
 }
 
-/// "rover/laser:ranges.measured[17]": its name before the bracket, and 17.
+/// Parts of "rover/laser:ranges.measured[17]": its name before the bracket, and 17.
 struct RangeColumn {
   std::string_view array;
   std::size_t index = 0;
@@ -37,7 +37,7 @@ std::optional<RangeColumn> range_column_in(std::string_view cell) {
   return code == std::errc{} && used == index.data() + index.size() ? std::optional(c) : std::nullopt;
 }
 
-/// A number, or no_range for `nan`, `inf` and an empty cell; nothing: it is neither.
+/// Returns a number, or no_range for `nan`, `inf` and an empty cell; nothing for any other text.
 std::optional<double> range_in(std::string_view text) {
   if (text.empty()) return no_range;
   if (text.front() == '+') text.remove_prefix(1);
@@ -162,14 +162,14 @@ class ScanTableReader {
     if (record_.range_max != 0 && record_.range_max <= record_.range_min)
       throw SetupError(fmt::format("{}: `range_max` is {:g} m, and is above `range_min`, {:g} m", record_.name,
                                    record_.range_max, record_.range_min));
-    constexpr double open_end = 1e6, just = 1e-9;  // m; what reads range_max has not been seen
+    constexpr double open_end = 1e6, just = 1e-9;  // m; a reading of range_max means that nothing was seen
     record_.limit(std::max(record_.range_min, just), record_.range_max > 0 ? record_.range_max - just : open_end);
   }
 
   std::string_view rest_;
   std::size_t number_ = 1;
   ScanRecord record_;
-  std::vector<std::optional<std::size_t>> columns_;  ///< which beam each is, if it is one
+  std::vector<std::optional<std::size_t>> columns_;  ///< index of the beam, for columns of beams
   std::size_t beams_ = 0;
   double unit_ = 1;
   std::optional<double> angle_min_{}, angle_increment_{}, range_min_{}, range_max_{};

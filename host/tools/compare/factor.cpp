@@ -16,7 +16,7 @@ namespace {
 
 std::string family_of(const std::string& id) { return id.substr(0, id.rfind('.')); }
 
-/// Reads `--vary TEXT`; its errors begin with that.
+/// Reads `--vary TEXT`; its errors begin with this option.
 class FactorReader {
  public:
   FactorReader(const std::string& text, const Scenario& scenario, const Registry& registry)
@@ -39,7 +39,7 @@ class FactorReader {
  private:
   [[noreturn]] void fail(const std::string& why) const { throw SetupError(fmt::format("--vary {}: {}", text_, why)); }
 
-  /// Finds the subsystem or algorithm that is varied.
+  /// Finds the varied subsystem or algorithm.
   void find_target(std::string name) {
     for (const std::string prefix : {"robots.", "algorithms."})
       if (name.rfind(prefix, 0) == 0) name.erase(0, prefix.size());
@@ -52,7 +52,7 @@ class FactorReader {
     find_subsystem();
   }
 
-  /// An algorithm of the whole scene: one that the scenario names, or a default one.
+  /// Finds an algorithm of the whole scene: one in the scenario, or a default one.
   void find_algorithm(const std::string& name) {
     out_.subsystem = name;
     out_.path = "algorithms." + name;
@@ -94,13 +94,13 @@ class FactorReader {
                      suggestion(out_.subsystem, names, "they have")));
   }
 
-  /// `motion.near` is `near` among the levels of `motion`.
+  /// Makes `motion.near` the level `near` of `motion`.
   void insert_levels_into_path() {
     const std::size_t dot = out_.path.rfind('.');
     out_.path.replace(dot, 1, ".levels.");
   }
 
-  /// "[3]" or "[0-4]".
+  /// Reads "[3]" or "[0-4]".
   void read_range(const std::string& range) {
     const char* const end = range.data() + range.size();
     const int max = out_.last;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a comparison varies in a scenario: its factors, as in the design of experiments.
+// Factors of a comparison in a scenario, as in the design of experiments.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace muro::host {
 
-/// One of the algorithms that are compared.
+/// One of the compared algorithms.
 struct Choice {
   std::string label;  ///< "simplified", or the full id when it is of another family
   std::string use;    ///< "motion.simplified", or "off"
@@ -22,7 +22,7 @@ struct Factor {
   std::string robots;       ///< the template; empty for an algorithm of the scene
   int first = 0, last = 0;  ///< robots of the template
   std::string subsystem;    ///< "motion", "collision"
-  std::string path;         ///< of the override: "robots.rovers.motion"
+  std::string path;         ///< path of the override: "robots.rovers.motion"
   std::string kind;         ///< "motion"
   std::vector<Choice> choices;
 };

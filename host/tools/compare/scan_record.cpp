@@ -11,7 +11,7 @@ namespace muro::host {
 
 namespace {
 
-/// The first line that is no comment and not empty.
+/// Returns the first line that is no comment and not empty.
 std::string_view first_line(std::string_view text) {
   if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
   while (!text.empty()) {
@@ -24,8 +24,7 @@ std::string_view first_line(std::string_view text) {
   return {};
 }
 
-/// Whether a measuring command or the model stands among the first lines: a recording may begin in the middle of a
-/// reply.
+/// Whether a measuring command or the model is among the first lines: a recording may begin in the middle of a reply.
 bool has_scip_command(std::string_view text) {
   constexpr int first_lines = 100;
   const auto is_command = [](std::string_view line) {

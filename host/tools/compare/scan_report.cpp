@@ -21,7 +21,7 @@ constexpr double to_mm = 1e3, to_degrees = 180 / std::numbers::pi, percent = 100
 
 std::string scan_file(const ScanRecord& r) { return std::filesystem::path(r.name).filename().string(); }
 
-/// Aligned columns, the first row the header.
+/// Returns aligned columns; the first row is the header.
 std::string columns_of(const Rows& rows) {
   std::vector<std::size_t> widths(rows.front().size());
   for (const auto& row : rows)
@@ -41,7 +41,7 @@ std::string mm(const Spread& s) {
   return fmt::format("{:.1f} ({:.1f} to {:.1f}), {}", s.median * to_mm, s.low * to_mm, s.high * to_mm, s.count);
 }
 
-/// With what it is of the recorded one.
+/// Returns a value in mm, with its ratio to the recorded one.
 std::string mm_beside(const Spread& s, const Spread& recorded) {
   if (s.count == 0 || recorded.count == 0 || !(recorded.median > 0)) return mm(s);
   return fmt::format("{}, x{:.2f}", mm(s), s.median / recorded.median);
@@ -56,7 +56,7 @@ const StatisticsBand* band_from(const std::vector<StatisticsBand>& bands, double
 using Bands = std::vector<StatisticsBand> ScanStatistics::*;
 using Quantity = Spread StatisticsBand::*;
 
-/// Of those that ran.
+/// Returns the deviations of the variations that ran.
 std::vector<const ScanDeviation*> those_that_ran(const std::vector<ScanDeviation>& all) {
   std::vector<const ScanDeviation*> ran;
   for (const ScanDeviation& d : all)
@@ -66,13 +66,13 @@ std::vector<const ScanDeviation*> those_that_ran(const std::vector<ScanDeviation
 
 std::string name_of_column(const ScanDeviation& d) { return d.label.empty() ? "simulated" : d.label; }
 
-/// What is known of the scanner in a band, for a further column; empty: no such column.
+/// Known values of the scanner in a band, for a further column; empty: no such column.
 struct KnownColumn {
   std::string name;
   std::function<std::string(double from, double to)> cell;
 };
 
-/// A table of a quantity by bands; empty where nobody has it.
+/// Returns a table of a quantity by bands; empty when there are no values.
 std::string table_by_band(const std::string& title, const std::string& unit, double scale, Bands bands,
                           Quantity quantity, const ScanStatistics& recorded,
                           const std::vector<const ScanDeviation*>& simulated, const std::vector<KnownColumn>& known) {
@@ -136,11 +136,11 @@ std::string percent_of(double share) { return fmt::format("{:.2g} %", share * pe
 
 std::string figure_or_dash(bool is_known, const std::string& figure) { return is_known ? figure : "-"; }
 
-/// Figures of a scanner as a whole.
+/// A figure of a scanner as a whole.
 struct WholeFigure {
   const char* name;
   std::function<std::string(const ScanStatistics&)> of;
-  double known;  ///< by evaluation of a real device; 0: not told
+  double known;  ///< from an evaluation of a real device; 0: not given
 };
 
 std::vector<WholeFigure> whole_figures(const ScannerData* known) {
@@ -201,7 +201,7 @@ std::string codes_line(const ScanRecord& record) {
   return text.empty() ? "" : "error codes of the recorded scanner, of all readings: " + text + "\n";
 }
 
-/// The bias of record and simulation against the true ranges of each variation.
+/// Returns tables of the bias of record and simulation against the true ranges of each variation.
 std::string bias_tables(const std::vector<const ScanDeviation*>& simulated, const ScannerData* known) {
   std::string text;
   for (const ScanDeviation* d : simulated) {

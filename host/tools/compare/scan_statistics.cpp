@@ -15,9 +15,9 @@ namespace {
 
 constexpr double range_limits[] = {0, 0.3, 0.6, 1, 1.5, 2.5, 4, 6, 10, 15, 20, 30, 60, 1e6};  // m
 constexpr double incidence_limits[] = {0, 20, 40, 60, 80};                                    // degrees
-constexpr std::size_t wall_beams = 21;                                                        // of a piece of wall
-constexpr double most_rough = 0.004;         // m: how far a wall may be from its line
-constexpr double flat_step = edge_jump / 3;  // m: between neighbours on one surface
+constexpr std::size_t wall_beams = 21;                                                        // in a piece of wall
+constexpr double most_rough = 0.004;         // m: largest deviation of a wall from its line
+constexpr double flat_step = edge_jump / 3;  // m: largest step between neighbours on one surface
 constexpr double one_degree = std::numbers::pi / 180;
 
 Spread spread_of(std::vector<double> values) {
@@ -35,7 +35,7 @@ Spread spread_of(std::vector<double> values) {
   return s;
 }
 
-/// A beam over all scans.
+/// Summary of a beam over all scans.
 struct BeamSummary {
   std::size_t count = 0;
   double mean = no_range, deviation = no_range;
@@ -62,13 +62,13 @@ BeamSummary summary_of(const ScanRecord& r, std::size_t beam) {
   return b;
 }
 
-/// A line a wall is on: x cos(angle) + y sin(angle) = distance.
+/// The line of a wall: x cos(angle) + y sin(angle) = distance.
 struct WallLine {
   double angle = 0, distance = 0;
   double range_at(double beam) const { return distance / elementary::cos(beam - angle); }
 };
 
-/// By total least squares; nothing where a beam has no range.
+/// Fits a line by total least squares; nothing when a beam has no range.
 std::optional<WallLine> line_through(const std::vector<double>& angles, const double* ranges, std::size_t first) {
   double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
   constexpr auto n = double(wall_beams);
@@ -79,13 +79,13 @@ std::optional<WallLine> line_through(const std::vector<double>& angles, const do
   }
   xx -= x * x / n, xy -= x * y / n, yy -= y * y / n;
   WallLine w;
-  w.angle = 0.5 * elementary::atan2(-2 * xy, yy - xx);  // of the normal
+  w.angle = 0.5 * elementary::atan2(-2 * xy, yy - xx);  // angle of the normal
   w.distance = (x * elementary::cos(w.angle) + y * elementary::sin(w.angle)) / n;
   if (w.distance < 0) w.distance = -w.distance, w.angle += std::numbers::pi;
   return w;
 }
 
-/// m: of the ranges about the line; two degrees of freedom are the line's.
+/// Deviation (m) of the ranges from the line, which takes two degrees of freedom.
 double deviation_from(const WallLine& w, const std::vector<double>& angles, const double* ranges, std::size_t first) {
   double squares = 0;
   for (std::size_t i = first; i < first + wall_beams; ++i) {
@@ -122,7 +122,7 @@ class Statistics {
 
   bool reads_mostly(const BeamSummary& b) const { return b.count > 0 && 2 * b.count >= s_.scans; }
 
-  /// Steady: it reads mostly, always one surface, and so do its neighbours, no farther or nearer.
+  /// Decides whether a beam is steady: it reads in most scans, always one surface, and so do its neighbours.
   void judge(std::size_t i) {
     BeamSummary& b = beams_[i];
     if (!reads_mostly(b)) return;
@@ -156,7 +156,7 @@ class Statistics {
     }
   }
 
-  /// Pieces of `wall_beams` neighbouring steady beams, one behind the other. A wall is what is straight in the mean.
+  /// Checks pieces of `wall_beams` neighbouring steady beams, one after the other. A wall is straight in the mean.
   void walk_along_walls() {
     std::vector<double> means;
     for (const BeamSummary& b : beams_) means.push_back(b.is_steady ? b.mean : no_range);
@@ -176,7 +176,7 @@ class Statistics {
     for (std::size_t i = first; i < first + wall_beams; ++i)
       if (beams_[i].count > 1) noise += beams_[i].deviation * beams_[i].deviation / double(beams_[i].count);
     noise = std::sqrt(noise / double(wall_beams));
-    constexpr double of_one_scan = 5;  // times `most_rough`: its noise is not known
+    constexpr double of_one_scan = 5;  // times `most_rough`: its noise is unknown
     const double most = s_.scans > 1 ? most_rough + 3 * noise : of_one_scan * most_rough;
     return deviation_from(line, r_.angles, means.data(), first) <= most;
   }
@@ -223,7 +223,7 @@ class Statistics {
 
   static bool is_flat(double a, double b) { return std::abs(a - b) <= flat_step; }
 
-  /// Whether an edge begins behind beam `i`, with up to two readings in it; returns how many beams it takes.
+  /// Whether an edge begins after beam `i`, with up to two readings in it. Returns the number of its beams.
   std::size_t edge_at(const std::vector<double>& scan, std::size_t i) {
     if (std::isnan(scan[i]) || !is_flat(scan[i - 1], scan[i])) return 0;
     for (std::size_t between = 0; between <= 2 && i + between + 2 < s_.beams; ++between) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What readers of recorded scans share.
+// Functions that readers of recorded scans share.
 #pragma once
 
 #include "host/tools/compare/scan_record.hpp"

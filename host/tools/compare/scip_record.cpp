@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a Hokuyo scanner has said, byte by byte: replies to GD, GS, GE, MD, MS and ME, and, where it was asked, to PP
-// and VV. Hokuyo, Communication Protocol Specification for SCIP2.0, C-42-03320B.
+// Bytes that a Hokuyo scanner has sent: replies to GD, GS, GE, MD, MS and ME and, if they were requested, to PP and VV.
+// Hokuyo, Communication Protocol Specification for SCIP2.0, C-42-03320B.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace muro::host {
 
 namespace {
 
-/// The character that stands behind `content` in a line.
+/// Returns the sum character that follows `content` in a line.
 char sum_of(std::string_view content) {
   unsigned sum = 0;
   for (const char c : content) sum += static_cast<unsigned char>(c);
@@ -33,19 +33,19 @@ std::optional<std::int64_t> digits_in(std::string_view text) {
 
 constexpr double mm_per_m = 1000;
 
-/// The steps that a measuring command asks for.
+/// The steps that a measuring command requests.
 struct Window {
   std::int64_t start = 0, end = 0, cluster = 1;
   std::size_t characters = 3;    ///< of a value
-  bool has_intensities = false;  ///< ME and GE: an intensity of as many characters stands behind each value
-  bool is_repeated = false;      ///< MD, MS or ME: the echo has an interval and a count, too
+  bool has_intensities = false;  ///< ME and GE: an intensity of as many characters follows each value
+  bool is_repeated = false;      ///< MD, MS or ME: the echo also has an interval and a count
 
   std::size_t values() const { return std::size_t((end - start) / cluster + 1); }
   std::size_t stride() const { return has_intensities ? 2 * characters : characters; }
   bool operator==(const Window& o) const { return start == o.start && end == o.end && cluster == o.cluster; }
 };
 
-/// Nothing where `line` is no measuring command.
+/// Returns the window of a measuring command; nothing when `line` is none.
 std::optional<Window> window_in(std::string_view line) {
   line = line.substr(0, line.find(';'));
   if (line.size() < 2 || (line[0] != 'G' && line[0] != 'M') || std::string_view("DSE").find(line[1]) > 2)
@@ -76,7 +76,7 @@ class ScipReader {
       else if (is_other_line())
         is_at_command_ = is_at_command_ || line_.size() > 3;
       else if (!is_at_command_)
-        ++skipped_;  // of a reply that had begun before
+        ++skipped_;  // line of a reply that had begun before
       else
         throw error(0, "this is no line of SCIP 2.0; a record is what the scanner has sent, byte by byte");
     }
@@ -100,7 +100,7 @@ class ScipReader {
     return true;
   }
 
-  /// What is in the line before its sum.
+  /// Returns the line without its sum.
   std::string_view checked() const {
     const std::string_view content = line_.substr(0, line_.size() - 1);
     if (line_.size() >= 2 && line_.back() == sum_of(content)) return content;
@@ -108,7 +108,7 @@ class ScipReader {
                 "the sum of this line does not fit what stands before it; a byte was changed or lost");
   }
 
-  /// Commands, their states, and lines of SCIP 1.1.
+  /// Whether the line is a command, its state, or a line of SCIP 1.1.
   bool is_other_line() const {
     if (line_.size() <= 3) return true;
     for (const std::string_view command :
@@ -117,7 +117,7 @@ class ScipReader {
     return false;
   }
 
-  /// `KEY:value;S`, and without a sum in SCIP 1.1.
+  /// Reads `KEY:value;S`; without a sum in SCIP 1.1.
   void read_entry() {
     const std::size_t end = line_.rfind(';');
     if (end == std::string_view::npos) return;
@@ -137,11 +137,11 @@ class ScipReader {
     }
   }
 
-  /// Behind the echo of a measuring command; `line_` is the echo.
+  /// Reads the reply after the echo of a measuring command; `line_` is the echo.
   void read_reply(Window window) {
     std::size_t echo_line = number_;
     if (!next_line()) return cut_off();
-    while (const std::optional<Window> again = window_in(line_)) {  // the request stands before its echo
+    while (const std::optional<Window> again = window_in(line_)) {  // the request comes before its echo
       window = *again, echo_line = number_;
       if (!next_line()) return cut_off();
     }
@@ -161,7 +161,7 @@ class ScipReader {
     window_ = window;
     if (!next_line()) return cut_off();
     if (!is_whole_) return cut_off();
-    checked();  // the time stamp: scans are told apart by their order
+    checked();  // the time stamp is not used: the order identifies the scans
     std::string data;
     for (;;) {
       if (!next_line()) return cut_off();
@@ -193,7 +193,7 @@ class ScipReader {
     record_.ranges.push_back(std::move(ranges));
   }
 
-  /// What is known once everything has been read: values below DMIN and above DMAX are codes.
+  /// Completes the record when everything has been read: values below DMIN and above DMAX are codes.
   void finish() {
     if (record_.ranges.empty())
       throw SetupError(record_.name + ": there is no whole scan in it; a record has the replies to MD, MS, GD or GS");
@@ -228,7 +228,7 @@ class ScipReader {
   }
 
   std::string_view rest_, line_;
-  bool is_whole_ = true;  ///< the line has its end
+  bool is_whole_ = true;  ///< the line has its line end
   std::size_t number_ = 0;
   ScanRecord record_;
   Window window_;

@@ -12,7 +12,7 @@ namespace muro::host {
 
 namespace {
 
-/// Three significant digits, and no exponent below 1e9.
+/// Returns three significant digits, without an exponent below 1e9.
 std::string rounded(double x) { return x >= 1000 && x < 1e9 ? fmt::format("{:.0f}", x) : fmt::format("{:.3g}", x); }
 
 std::string names_of(const std::vector<Factor>& factors) {
@@ -23,7 +23,7 @@ std::string names_of(const std::vector<Factor>& factors) {
 
 using Row = std::vector<std::string>;
 
-/// A deviation that only some robots have: two columns, of the root mean square and the largest.
+/// A deviation that only some robots have: two columns, for the root mean square and the largest.
 struct Part {
   const char *subject, *unit;
   std::optional<Differences> Deviation::*differences;
@@ -32,7 +32,7 @@ constexpr Part deviation_parts[] = {{"link", "m", &Deviation::links},
                                     {"joint", "rad", &Deviation::revolute_joints},
                                     {"joint", "m", &Deviation::prismatic_joints}};
 
-/// Those that any of the robots has, and nothing where no variation ran.
+/// Returns the parts that any of the robots has; empty when no variation ran.
 std::vector<Part> parts_of(const Compared& all) {
   std::vector<Part> some;
   for (const Part& p : deviation_parts)
@@ -44,7 +44,7 @@ std::vector<Part> parts_of(const Compared& all) {
   return some;
 }
 
-/// Columns are aligned to the right, the first one to the left.
+/// Aligns columns to the right, the first one to the left.
 std::string aligned(const std::vector<Row>& rows) {
   std::vector<std::size_t> width;
   for (const Row& r : rows)
@@ -104,7 +104,7 @@ std::string head(const Compared& all) {
                      c.duration, c.seed.value_or(c.scenario.seed), all.results[all.reference].label);
 }
 
-/// Whether what robots do shows in their links alone, as in arms that are fixed to the world.
+/// Whether only links show the motion of the robots, as in arms that are fixed to the world.
 bool has_still_bases(const Compared& all) {
   return std::all_of(all.results.begin(), all.results.end(), [&](const VariationResult& r) {
     const std::optional<Deviation> d = deviation_of(r, all.results[all.reference]);

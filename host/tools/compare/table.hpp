@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The results of a comparison as text: deviation against cost, variation by variation.
+// The results of a comparison as text: deviation against cost for each variation.
 #pragma once
 
 #include <string>
@@ -15,16 +15,16 @@ struct Compared {
   std::size_t reference;  ///< index of the result with which the others are compared
 };
 
-/// For the terminal.
+/// Returns the table for the terminal.
 std::string table(const Compared& compared);
-/// For programs, a line for each variation.
+/// Returns the table for programs, a line for each variation.
 std::string csv(const Compared& compared);
-/// A drawing (SVG) of the variations that ran: cost to the right, deviation upwards.
+/// Returns a drawing (SVG) of the variations that ran: cost to the right, deviation upwards.
 std::string picture(const Compared& compared);
 
-/// How many robots like those that are compared run in real time on one core.
+/// Number of robots like the compared ones that run in real time on one core.
 double real_time_robots(const Comparison& comparison, const VariationResult& result);
-/// From the reference; none when one of both did not run.
+/// Returns the deviation from the reference; nothing when one of both did not run.
 std::optional<Deviation> deviation_of(const VariationResult& result, const VariationResult& reference);
 
 }  // namespace muro::host

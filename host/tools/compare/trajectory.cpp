@@ -12,8 +12,7 @@ namespace muro::host {
 
 namespace {
 
-/// The position of the joint of a link (rad or m); where it stands at the start if the motion of the robot does not
-/// move joints.
+/// Position of the joint of a link (rad or m); its start position when the motion of the robot does not move joints.
 double position_of_joint(const World& world, const RobotView& robot, const Link& link) {
   if (const double* const position = world.find_value(link.joint_object, keys::joint_position)) return *position;
   if (link.mimic >= 0)
@@ -22,7 +21,7 @@ double position_of_joint(const World& world, const RobotView& robot, const Link&
   return world.constant(link.joint_object, keys::initial_joint_position, 0.0);
 }
 
-/// `difference`: of two values, 0 or more.
+/// `difference`: returns the difference of two values, 0 or more.
 template <class T, class Difference>
 std::optional<Differences> differences_of(const std::vector<T>& values, const std::vector<T>& reference,
                                           Difference difference) {
@@ -41,7 +40,7 @@ std::optional<Differences> differences_of(const std::vector<T>& values, const st
 
 }  // namespace
 
-/// By the base and the joints alone, which every motion has; no algorithm has to tell where links are.
+/// Computes link poses from the base and the joints only, which every motion has; no algorithm has to write link poses.
 void Trajectory::sample_links(const World& world, const RobotView& robot) {
   std::vector<Pose> poses{world.value(robot.base(), keys::pose)};
   for (const Link& link : robot.links) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Records as tables: lines `# name: value`, a header with the names of columns, a sample a line.
+// Records as tables: lines `# name: value`, a header with the names of columns, one line for each sample.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -80,7 +80,7 @@ class CsvReader {
     return record_error(record_.name, {line_, column + 1}, what);
   }
 
-  /// `# name: value`; other comments mean nothing.
+  /// Reads `# name: value`; other comments have no meaning.
   void read_constant(std::string_view line) {
     const std::size_t hash = line.find('#'), colon = line.find(':');
     if (colon == std::string_view::npos) return;
@@ -184,7 +184,7 @@ class CsvReader {
   MotorRecord record_;
   double supply_ = 0;
   std::size_t line_ = 1;
-  std::vector<int> columns_;  ///< what each is, or -1
+  std::vector<int> columns_;  ///< the quantity of each column, or -1
   std::vector<TextPlace> places_;
 };
 

@@ -33,7 +33,7 @@ double error_on(const std::vector<MotorRecord>& records, const MotorEstimate& es
   return sum / double(records.size());
 }
 
-/// What is warmer or colder than all that was fitted is not foreseen.
+/// Warns when a record is warmer or colder than all fitted ones: the fit does not predict that.
 void warn_of_temperature(const std::string& what, const std::optional<TemperatureSpan>& predicted,
                          const std::optional<TemperatureSpan>& fitted, std::vector<std::string>& notes) {
   if (!predicted || !fitted) return;
@@ -106,7 +106,7 @@ PartialFits leave_records_out(const std::vector<MotorRecord>& records, const Fit
   return result;
 }
 
-/// Mean |error| (rad) from the sample `first` on, of a simulation of the whole record.
+/// Mean |error| (rad) from sample `first` on, in a simulation of the whole record.
 double error_from(std::size_t first, const MotorRecord& record, const MotorEstimate& estimate) {
   const Residuals r = residuals_of(prepare(record, report_step, estimate.delay), record, estimate);
   double sum = 0, count = 0;
@@ -158,7 +158,7 @@ FrictionKind friction_kind_of(const std::string& word) {
 std::string name_of(FrictionKind kind) { return fmt::format("M{}", 1 + int(kind)); }
 
 double recorded_gain(const std::vector<MotorRecord>& records) {
-  constexpr double least = 0.05, most = 0.9;  // duties: smaller ones are rounded, larger ones limited
+  constexpr double least = 0.05, most = 0.9;  // duties: smaller ones are rounded, larger ones are limited
   std::vector<double> gains;
   for (const MotorRecord& r : records) {
     if (!r.has_duty) continue;

@@ -10,7 +10,7 @@ namespace muro::host {
 
 namespace {
 
-/// Figures of the motor as the scenario has them, with what the search says of each.
+/// A figure of the motor as in the scenario, with what the search found about it.
 struct ReportLine {
   std::string name, unit, value, range, remark;
 };
@@ -31,7 +31,7 @@ std::vector<ReportLine> report_lines(const Identification& id) {
       lines.push_back({p.name, p.unit, digits(p.value), range_of(p), bound_remark(p)});
       continue;
     }
-    FitParameter r = p;  // R = kt by torque for each volt
+    FitParameter r = p;  // R = kt / (torque for each volt)
     r.value = id.fit.estimate.motor.resistance;
     r.deviation = r.value * (id.fit.parameters[0].deviation / id.fit.parameters[0].value + p.deviation / p.value);
     r.is_at_low = p.is_at_high, r.is_at_high = p.is_at_low;
@@ -42,7 +42,7 @@ std::vector<ReportLine> report_lines(const Identification& id) {
 
 std::string short_name(const MotorRecord& r) { return std::filesystem::path(r.name).filename().string(); }
 
-/// Rows of cells, the first one the header.
+/// Returns rows of cells; the first row is the header.
 std::string table_of(const std::vector<std::vector<std::string>>& rows, bool markdown) {
   std::vector<std::size_t> widths(rows.front().size());
   for (const auto& row : rows)
@@ -75,7 +75,7 @@ double middle_voltage(const Identification& id) {
   return volts[volts.size() / 2];
 }
 
-/// For programs.
+/// Returns the word for programs.
 const char* word_of(UnseenData data) {
   switch (data) {
     case UnseenData::named_records:
@@ -90,7 +90,7 @@ const char* word_of(UnseenData data) {
   return "last_quarter";
 }
 
-/// What was not seen; empty where the user has said it.
+/// Describes the unseen data; empty when the user has named them.
 std::string unseen_line(const Validation& v) {
   if (v.data == UnseenData::named_records) return "";
   if (v.data == UnseenData::each_record)

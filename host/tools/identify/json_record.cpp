@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Where the elements of the array `entries` of the outermost object begin. The text has been parsed before.
+/// Returns where the elements of the array `entries` of the outermost object begin. The text was parsed before.
 std::vector<TextPlace> places_of_entries(const std::string& text) {
   std::vector<TextPlace> places;
   std::string key, last;
@@ -134,7 +134,7 @@ MotorRecord parse_json_record(const std::string& text, const std::string& name, 
     s.torque_enable = !entry.has("torque_enable") || entry.truth("torque_enable");
     if (full_load > 0 && entry.has("load")) {
       const double counts = entry.number("load");
-      s.duty = (counts > 32767 ? counts - 65536 : counts) / full_load;  // of 16 bits, without sign
+      s.duty = (counts > 32767 ? counts - 65536 : counts) / full_load;  // 16 bits without sign
       r.has_duty = true;
     }
     r.has_temperature = entry.has("temp") && (i == 0 || r.has_temperature);

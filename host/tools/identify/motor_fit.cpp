@@ -20,14 +20,14 @@ namespace muro::host {
 namespace {
 
 constexpr double coarse_step = 0.006, fine_step = 0.002;  // s
-/// Evaluations of the objective, for each parameter.
+/// Evaluations of the objective for each parameter.
 struct Effort {
   unsigned global, coarse, fine;  ///< of the random search; of Subplex in coarse and in fine steps
 };
 constexpr Effort whole_effort{500, 150, 100}, part_effort{150, 80, 30};
-constexpr double huber = 0.01;  // rad: errors above count by their size, below by their square
+constexpr double huber = 0.01;  // rad: larger errors count by their size, smaller ones by their square
 
-/// What is minimized.
+/// The minimized function.
 class Objective {
  public:
   Objective(const std::vector<MotorRecord>& records, const SearchSpace& space, double longest_step)
@@ -35,7 +35,7 @@ class Objective {
     for (const MotorRecord& r : records) prepared_.push_back(prepare(r, longest_step));
   }
 
-  /// Mean pseudo-Huber error (rad) of the records, each with the same weight; infinite motion counts as very far off.
+  /// Mean pseudo-Huber error (rad) of the records, each with the same weight; infinite motion is a very large error.
   double operator()(const double* x) const {
     const MotorEstimate e = space_->estimate(x);
     double sum = 0;
@@ -84,7 +84,7 @@ double call(unsigned, const double* x, double*, void* counted) {
   return c.objective(x);
 }
 
-/// Improves `c` by an algorithm of NLopt within `evaluations`.
+/// Improves `c` with an algorithm of NLopt within `evaluations`.
 void improve(nlopt::algorithm algorithm, const Objective& objective, unsigned evaluations, double first_step,
              Candidate& c) {
   nlopt::opt search(algorithm, unsigned(c.x.size()));
@@ -99,14 +99,14 @@ void improve(nlopt::algorithm algorithm, const Objective& objective, unsigned ev
   double error = c.error;
   try {
     search.optimize(x, error);
-  } catch (const std::exception&) {  // what it has found until then counts
+  } catch (const std::exception&) {  // the best point so far counts
     error = objective(x.data());
   }
   c.evaluations += counted.evaluations;
   if (error < c.error) c.x = x, c.error = error;
 }
 
-/// Number `number` of the global searches, refined.
+/// Runs global search number `number`, and refines its result.
 Candidate search_from(unsigned number, const Objective& objective, const SearchSpace& space, const FitSettings& s,
                       unsigned global, unsigned local) {
   // NLopt's random numbers are those of the thread
@@ -124,7 +124,7 @@ unsigned evaluations(unsigned wanted, unsigned for_each, const SearchSpace& spac
   return wanted > 0 ? wanted : for_each * unsigned(space.size());
 }
 
-/// All searches, on `threads` threads; what comes out does not depend on them.
+/// Runs all searches on `threads` threads; the result does not depend on their number.
 std::vector<Candidate> search_everywhere(const Objective& objective, const SearchSpace& space, const FitSettings& s,
                                          const std::function<void(double)>& show) {
   const unsigned global = evaluations(s.global_evaluations, whole_effort.global, space);
@@ -147,7 +147,7 @@ std::vector<Candidate> search_everywhere(const Objective& objective, const Searc
 
 #endif
 
-/// All of the result that `best` says.
+/// Sets all parts of the result that follow from `best`.
 void take_result(const std::vector<MotorRecord>& records, const SearchSpace& space, const Candidate& best,
                  FitResult& result) {
   result.evaluations += best.evaluations;
@@ -158,8 +158,8 @@ void take_result(const std::vector<MotorRecord>& records, const SearchSpace& spa
         error_of(prepare(r, fine_step, result.estimate.delay), result.estimate).mean / double(records.size());
 }
 
-/// How far each parameter may go, with all others adapted, until the RMS error is 1 % larger: by the derivatives of the
-/// errors at the optimum. 0 for those at a bound.
+/// Finds how far each parameter may be changed, with all others adapted, until the RMS error is 1 % larger, from the
+/// derivatives of the errors at the optimum. 0 for parameters at a bound.
 void find_ranges(const std::vector<MotorRecord>& records, const SearchSpace& space, const Candidate& best,
                  FitResult& result) {
   std::vector<std::size_t> free;
@@ -263,7 +263,7 @@ FitResult refit_motor(const std::vector<MotorRecord>& records, const FitSettings
     if (near.x.empty() || c.error < near.error) near = c;
   }
   improve(nlopt::LN_SBPLX, coarse, local, 0.05, near);
-  // so that what these records do not tell is not taken from the others alone
+  // own search, so that parameters which these records do not determine are not taken only from the others
   const Candidate own = search_from(settings.starts, coarse, space, settings, global, local);
   Candidate best = own.error < near.error ? own : near;
   best.evaluations = own.evaluations + near.evaluations;

@@ -18,8 +18,8 @@ double usual_period(const MotorRecord& r) {
   return periods[periods.size() / 2];
 }
 
-/// rad/s, at `first`: of the parabola through the samples of a short time from there to before `end`, of the line where
-/// they are few; 0 where it is not seen to move.
+/// Slope (rad/s) at `first`. It is that of the parabola through the samples of a short time from there to before `end`,
+/// or of the line if they are few; 0 when there is no visible motion.
 double initial_slope(const MotorRecord& r, std::size_t first, std::size_t end) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -38,8 +38,8 @@ double initial_slope(const MotorRecord& r, std::size_t first, std::size_t end) {
   return normal.topLeftCorner<2, 2>().ldlt().solve(right.head<2>())[1] / slope_window;
 }
 
-/// rad: the mean from sample `i` to the next one of the goals that the servo has had for `delay` (s). `command`: the
-/// sample whose goal it has had last, at most `i`.
+/// Mean (rad), from sample `i` to the next one, of the goals that reach the servo after `delay` (s). `command`: the
+/// sample of its latest goal, at most `i`.
 double mean_goal(const MotorRecord& r, std::size_t i, double delay, std::size_t& command) {
   const double from = r.samples[i].time, to = r.samples[i + 1].time;
   const auto comes = [&](std::size_t k) { return r.samples[k].time + delay; };

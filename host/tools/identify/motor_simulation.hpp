@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A servo and its load as they move by themselves from the first sample of a record on, under its commands.
+// Simulation of a servo and its load from the first sample of a record on, under its commands.
 #pragma once
 
 #include <algorithm>
@@ -13,54 +13,54 @@
 
 namespace muro::host {
 
-/// What identification finds.
+/// Results of an identification.
 struct MotorEstimate {
   motor::MotorModel motor;             ///< `gain`: for each unit of the P gain
-  double offset = 0;                   ///< rad: what the record's positions lack of the pendulum's angle
-  double delay = 0;                    ///< s, from the recorded command to what the servo does
-  double temperature_coefficient = 0;  ///< 1/K: of the resistance, from `reference_temperature` on
+  double offset = 0;                   ///< rad: angle of the pendulum minus position in the record
+  double delay = 0;                    ///< s, from the recorded command to the reaction of the servo
+  double temperature_coefficient = 0;  ///< 1/K: change of the resistance, from `reference_temperature` on
   double reference_temperature = 25;   ///< degrees Celsius
 
-  /// Ohm, at a recorded temperature (degrees Celsius).
+  /// Resistance (Ohm) at a recorded temperature (degrees Celsius).
   double resistance_at(double temperature) const {
-    constexpr double least = 0.1;  // of that at the reference
+    constexpr double least = 0.1;  // relative to that at the reference
     return motor.resistance * std::max(1 + temperature_coefficient * (temperature - reference_temperature), least);
   }
 };
 
-/// A part of a record without gaps, as the simulation takes it: the interval from each sample to the next in `steps`
-/// equal steps. Of a delayed goal that changes within an interval it has the mean.
+/// A part of a record without gaps, prepared for the simulation: the interval from each sample to the next is divided
+/// into `steps` equal steps. A delayed goal that changes within an interval is replaced by its mean there.
 struct RecordSegment {
-  std::size_t first = 0;  ///< sample of the record
+  std::size_t first = 0;  ///< index of the sample in the record
   double initial_velocity = 0;
   struct Interval {
-    double goal, supply_voltage, dt;  ///< s, of a step
+    double goal, supply_voltage, dt;  ///< s, of one step
     std::int32_t steps;
     bool torque_enable;
-    double temperature;  ///< degrees Celsius, where the record has it
-    double position;     ///< rad, recorded at its end
+    double temperature;  ///< degrees Celsius, if the record has it
+    double position;     ///< rad, recorded at the end of the interval
   };
   double initial_position = 0;
   std::vector<Interval> intervals;
 };
 
-/// A record made ready. Steps take at most `longest_step` (s). Where more than `gap_factor` times the usual period, and
-/// more than 0.05 s, lie between two samples, the simulation begins anew.
+/// A prepared record. Steps take at most `longest_step` (s). When two samples are apart by more than `gap_factor` times
+/// the usual period, and by more than 0.05 s, the simulation begins anew.
 struct PreparedRecord {
   double p_gain = 0;
-  double duty_gain = 0, duty_limit = 0;  ///< of the record, or 0: those of the estimate
+  double duty_gain = 0, duty_limit = 0;  ///< of the record; 0: those of the estimate
   bool has_temperature = false;
   BenchLoad load;
   std::vector<RecordSegment> segments;
-  std::size_t sample_count = 0;  ///< that are compared
+  std::size_t sample_count = 0;  ///< number of compared samples
   std::size_t gap_count = 0;
 };
-/// `delay` (s): of goals; the torque's enable and the supply have none, as in motor.servo.
+/// Prepares a record. `delay` (s): delay of goals; the torque's enable and the supply have none, as in motor.servo.
 PreparedRecord prepare(const MotorRecord& record, double longest_step, double delay = 0);
 
-/// Simulates a segment of `record`; `visit(position error, interval)` at the end of each interval. Torques and
-/// friction's budget are those in the middle of a step, with the velocity extrapolated there: of second order, as the
-/// recorded sampling is coarse. Friction itself is that of motor::next_velocity.
+/// Simulates a segment of `record`; calls `visit(position error, interval)` at the end of each interval. Torques and
+/// the budget of friction are those in the middle of a step, with the velocity extrapolated to there. This is of second
+/// order, because the recorded sampling is coarse. Friction itself is that of motor::next_velocity.
 template <class Visit>
 void simulate(const RecordSegment& segment, const PreparedRecord& record, const MotorEstimate& e, const Visit& visit) {
   const motor::MotorModel& m = e.motor;
@@ -90,9 +90,9 @@ void simulate(const RecordSegment& segment, const PreparedRecord& record, const 
   }
 }
 
-/// How far the simulation is from a record.
+/// Error of the simulation of a record.
 struct RecordError {
-  double mean = 0;     ///< rad, of |error|
+  double mean = 0;     ///< rad, mean of |error|
   double rms = 0;      ///< rad
   double largest = 0;  ///< rad
 };

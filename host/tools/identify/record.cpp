@@ -21,7 +21,7 @@ void check_constant(const MotorRecord& r, double value, bool zero_is_fine, const
                                zero_is_fine ? "0 or more" : "above 0", option));
 }
 
-/// `longest` (s): what is usual at most.
+/// Checks the period. `longest` (s): the longest usual period.
 void check_period(const MotorRecord& r, double longest) {
   constexpr double shortest = 1e-5;
   std::vector<double> periods;

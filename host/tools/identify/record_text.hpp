@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What readers of records share.
+// Functions that readers of records share.
 #pragma once
 
 #include "core/error.hpp"
@@ -11,15 +11,15 @@ namespace muro::host {
 struct TextPlace {
   std::size_t line = 1, column = 1;
 };
-/// Of the byte `offset` of `text`.
+/// Returns the place of the byte `offset` of `text`.
 TextPlace place_in(const std::string& text, std::size_t offset);
-/// "FILE:LINE:COLUMN: WHAT".
+/// Returns the error "FILE:LINE:COLUMN: WHAT".
 SetupError record_error(const std::string& name, TextPlace place, const std::string& what);
 
 MotorRecord parse_json_record(const std::string& text, const std::string& name, const RecordDefaults& defaults);
 MotorRecord parse_csv_record(const std::string& text, const std::string& name, const RecordDefaults& defaults);
 
-/// Puts in what the command line says, and checks what cannot be done without. `places`: one for each sample.
+/// Adds values from the command line, and checks required values. `places`: one for each sample.
 void complete_record(MotorRecord& record, const RecordDefaults& defaults, std::vector<TextPlace> places);
 
 }  // namespace muro::host

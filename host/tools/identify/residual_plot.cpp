@@ -23,7 +23,7 @@ std::string without_markup(const std::string& text) {
   return out;
 }
 
-/// 1, 2 or 5 times a power of ten, at least `x`.
+/// Returns 1, 2 or 5 times a power of ten, at least `x`.
 double round_up(double x) {
   double unit = 1e-6;
   for (; unit < 1e6; unit *= 10)

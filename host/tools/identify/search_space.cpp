@@ -7,11 +7,11 @@ namespace muro::host {
 
 namespace {
 
-/// What records tell of the size of things.
+/// The scale of recorded quantities.
 struct Scale {
-  double volts = 0;    // the middle one
-  double speed = 0;    // rad/s: the highest while the motor drives
-  double torque = 0;   // N m: of gravity, or to move the load as it did
+  double volts = 0;    // the median
+  double speed = 0;    // rad/s: the highest speed while the motor drives
+  double torque = 0;   // N m: of gravity, or for the recorded motion of the load
   double inertia = 0;  // kg m^2
 };
 
@@ -20,7 +20,7 @@ double middle(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// Over pieces of 0.05 s.
+/// Finds the largest speed and acceleration, over pieces of 0.05 s.
 void add_motion(const MotorRecord& r, double& speed, double& acceleration) {
   double last_speed = 0;
   bool has_last = false;
@@ -72,7 +72,7 @@ SearchSpace::SearchSpace(const std::vector<MotorRecord>& records, const FitSetti
   for (const MotorRecord& r : records) least_p = std::min(least_p, r.p_gain), most_p = std::max(most_p, r.p_gain);
   const bool stribeck = settings.friction == FrictionKind::m2 || settings.friction == FrictionKind::m4;
   const bool load = settings.friction == FrictionKind::m3 || settings.friction == FrictionKind::m4;
-  // The torque at standstill is at least about the load's, the speed without load at least about the highest seen.
+  // The torque at standstill is about the load's or more, the speed without load about the highest recorded or more.
   add("kt", "N m/A", 0.03 * s.volts / s.speed, 3 * s.volts / s.speed, true);
   add("torque_by_voltage", "N m/V", 0.3 * s.torque / s.volts, 100 * s.torque / s.volts, true);
   add("armature", "kg m^2", 1e-3 * s.inertia, 100 * s.inertia, true);
@@ -87,7 +87,7 @@ SearchSpace::SearchSpace(const std::vector<MotorRecord>& records, const FitSetti
   if (load && stribeck) add("load_stribeck_friction", "1", 0, 1, false, true);
   add("offset", "rad", -0.15, 0.15, false);
   if (settings.fit_gain) {
-    // known about, or: full duty at an error from 0.003 to 30 rad
+    // around the approximate value, or: full duty at an error from 0.003 to 30 rad
     const double low = settings.gain > 0 ? settings.gain / 4 : 1 / (30 * least_p);
     const double high = settings.gain > 0 ? settings.gain * 4 : 1 / (0.003 * most_p);
     add("duty_gain", "1/rad", low, std::max(high, 10 * low), true);
@@ -109,7 +109,7 @@ void SearchSpace::add(const char* name, const char* unit, double low, double hig
 double SearchSpace::value(std::size_t i, double x) const {
   const FitParameter& p = parameters_[i];
   if (p.logarithmic) return p.low * elementary::exp(x * elementary::log(p.high / p.low));
-  // from 0 on small values are looked at as closely as large ones
+  // from 0 on, small values are searched as finely as large ones
   if (p.low == 0) return p.high * x * x;
   return p.low + x * (p.high - p.low);
 }

@@ -10,7 +10,7 @@ namespace muro::host {
 
 namespace {
 
-/// Of a process of stationary deviation 1 and correlation time `time`, samples `period` apart.
+/// Allan variance of a process of stationary deviation 1 and correlation time `time`; samples are `period` apart.
 double gauss_markov_variance(double time, std::size_t cluster, double period) {
   const double m = double(cluster), x = m * period / time;
   if (x < 0.01) return -elementary::expm1(-2 * period / time) * (2 * m * m + 1) / (6 * m) * (1 - 0.75 * x);
@@ -28,7 +28,7 @@ double allan_error(std::size_t samples, std::size_t cluster) {
 
 std::vector<AllanPoint> allan_deviation(std::span<const double> samples, double period) {
   std::vector<double> sums(samples.size() + 1);
-  double mean = 0;  // is taken off, so that the sums stay small
+  double mean = 0;  // is subtracted, so that the sums stay small
   for (const double y : samples) mean += y / double(samples.size());
   for (std::size_t k = 0; k < samples.size(); ++k) sums[k + 1] = sums[k] + (samples[k] - mean);
   std::vector<AllanPoint> points;

@@ -13,9 +13,9 @@ namespace muro::host {
 
 namespace {
 
-constexpr double deviations_in_band = 2;  ///< 95 % of the estimates lie within
+constexpr double deviations_in_band = 2;  ///< 95 % of the estimates are within
 
-/// Of components: 95 % of the estimates should lie between these.
+/// Expected deviation of a component; 95 % of the estimates should be between `low` and `high`.
 struct ExpectedBand {
   double expected, low, high;
 };
@@ -31,7 +31,7 @@ bool is_expected(const AllanCurves& c) {
                      [](const NoiseFigures& f) { return f.is_known(); });
 }
 
-/// Components whose figures are the same are described once.
+/// Components with the same figures are described once.
 bool same_figures(const AllanCurves& c) {
   const auto text = [](const NoiseFigures& f) {
     return fmt::format("{} {} {} {} {} {}", f.noise_density, f.bias_instability, f.random_walk, f.gauss_markov_sigma,

@@ -35,7 +35,7 @@ class SensorObjects {
     }
   }
 
-  /// What devices write on an object: numbers, few enough to be looked at one by one.
+  /// Returns the readings that devices write on an object: numbers, few enough to be checked one by one.
   std::vector<Found> readings(ObjectId object) const {
     std::vector<Found> all;
     for (const auto& [key, id] : world_.store().properties(object)) {
@@ -79,7 +79,7 @@ class SensorObjects {
   std::map<Accessor, const Instance*> by_accessor_;
 };
 
-/// A constant that sensor.error has left about a reading; zeros where there is none.
+/// Returns a constant that sensor.error has stored for a reading; zeros when there is none.
 std::vector<double> figure(const World& world, ObjectId object, const std::string& truth, const char* name,
                            std::size_t components) {
   std::vector<double> numbers(components, 0.0);
@@ -143,7 +143,7 @@ std::vector<SensorReading> find_readings(const Simulation& simulation, const std
   const std::vector<Found> all = sensors.readings(object);
   for (const Found& f : all) {
     const bool is_hidden = std::any_of(all.begin(), all.end(), [&](const Found& other) {
-      return other.has_errors() && other.truth() == f.name;  // its reading with errors stands for it
+      return other.has_errors() && other.truth() == f.name;  // its reading with errors replaces it
     });
     if (is_hidden) continue;
     names.push_back(f.truth());

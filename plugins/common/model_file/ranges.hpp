@@ -11,7 +11,7 @@ namespace muro::model_file {
 void drop_tiny_sizes(std::string_view name, std::span<double> values);
 
 /// Returns what is wrong with numbers of the element or attribute `name` of a URDF or SDFormat file ("mass", "xyz",
-/// "pose"), by the ranges of muro/toolkit/limits.hpp. It completes a sentence that begins with the text. Empty: nothing
+/// "pose"), by the ranges of muro/base/limits.hpp. It completes a sentence that begins with the text. Empty: nothing
 /// is wrong, or no range is known.
 std::string range_problem(std::string_view name, std::span<const double> values);
 

@@ -6,8 +6,8 @@
 
 namespace muro {
 
-/// Half lengths (m) of the smallest box around a shape, in the axes of the shape; infinite for a
-/// plane, zero for a mesh and in z for a heightmap (what is in its file is known to who loads it).
+/// Half lengths (m) of the smallest box around a shape, in the axes of the shape. Infinite for a plane; zero for a
+/// mesh, and in z for a heightmap (only the reader of the file knows its extent).
 inline Vec3 half_extents(const Shape& s) {
   switch (s.kind) {
     case ShapeKind::box:
@@ -28,7 +28,7 @@ inline Vec3 half_extents(const Shape& s) {
   return Vec3::Zero();
 }
 
-/// The box around `shape` when the shape (not its body) stands at `pose`. Planes are infinite.
+/// Returns the box around `shape` when the shape (not its body) is at `pose`. Planes are infinite.
 inline Aabb bounds_of(const Shape& shape, const Pose& pose) {
   const Vec3 half = half_extents(shape);
   if (shape.kind == ShapeKind::plane) return {-half, half};
@@ -37,7 +37,7 @@ inline Aabb bounds_of(const Shape& shape, const Pose& pose) {
   return {pose.position - reach, pose.position + reach};
 }
 
-/// The box around the shape of a collider, in the world.
+/// Returns the box around the shape of a collider, in the world.
 inline Aabb bounds_of(const Collider& collider) { return bounds_of(*collider.shape, collider.pose()); }
 
 }  // namespace muro

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For error messages: what the user may have meant.
+// Suggestions of similar names, for error messages.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace muro {
 
-/// How many characters must be added, left out, exchanged or swapped with a neighbour to get from `a` to `b`
+/// Number of characters that must be added, left out, exchanged or swapped with a neighbour to get from `a` to `b`
 /// (optimal string alignment).
 inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   const std::size_t width = b.size() + 1;
@@ -28,15 +28,15 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return at(a.size(), b.size());
 }
 
-/// Longer words are no misspelled names, and take long to compare.
+/// Longer words are not misspelled names, and take long to compare.
 inline constexpr std::size_t longest_misspelling = 100;
 
-/// The `most` candidates that are like `wrong`, the likest first; those that contain it come before all others.
+/// Returns at most `most` candidates similar to `wrong`, the nearest first; those that contain it come before.
 inline std::vector<std::string> nearest_names(std::string_view wrong, std::span<const std::string> candidates,
                                               std::size_t most) {
   std::vector<std::pair<std::size_t, std::string>> found;
   if (wrong.size() > longest_misspelling) return {};
-  const std::size_t too_far = wrong.size() / 3 + 2;  // what is farther away is no help
+  const std::size_t too_far = wrong.size() / 3 + 2;  // a more distant name is no help
   for (const std::string& c : candidates) {
     const bool contains = wrong.size() >= 3 && c.find(wrong) != std::string::npos;
     const std::size_t longer = std::max(c.size(), wrong.size()) - std::min(c.size(), wrong.size());

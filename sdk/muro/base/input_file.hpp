@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For readers of what may be anything: a file, a pipe, a device without end.
+// A reader for any input: a file, a pipe, a device without end.
 #pragma once
 
 #include <fcntl.h>
@@ -16,7 +16,7 @@
 
 namespace muro {
 
-/// A file that is read from its begin to its end, once. Errors are muro::Error with path and reason.
+/// A file that is read once, from its beginning to its end. Errors are muro::Error with path and reason.
 class InputFile {
  public:
   /// Opens it. Waits a minute for the first bytes of a pipe.
@@ -37,7 +37,7 @@ class InputFile {
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
-  /// All that is left. Throws Error where that is more than `most` bytes.
+  /// Returns all remaining bytes. Throws Error when there are more than `most` bytes.
   std::string rest(std::size_t most) {
     std::string text(block_, next_);
     while (fill()) {
@@ -48,7 +48,7 @@ class InputFile {
     return text;
   }
 
-  /// The next line without its LF. False: there is none. Throws Error where it has more than `longest` bytes.
+  /// Reads the next line without its LF. Returns false at the end. Throws Error for a line longer than `longest` bytes.
   bool line(std::string& text, std::size_t longest) {
     text.clear();
     while (next_ < block_.size() || fill()) {
@@ -62,14 +62,14 @@ class InputFile {
     }
     return !text.empty();
   }
-  /// The line that was read last had no LF: the file ends with it.
+  /// Whether the last line had no LF: the file ends with it.
   bool is_cut() const { return is_cut_; }
 
  private:
-  /// Owns the descriptor from here on, whatever is thrown.
+  /// Owns the descriptor from here on, also when an exception is thrown.
   InputFile(const std::string& path, int descriptor) : path_(path), descriptor_(descriptor) {}
 
-  /// False: at the end.
+  /// Returns false at the end.
   bool fill() {
     constexpr std::size_t size = std::size_t(1) << 16;
     block_.resize(size);
@@ -87,8 +87,8 @@ class InputFile {
 
   std::string path_;
   int descriptor_ = -1;
-  std::string block_;     ///< that was read
-  std::size_t next_ = 0;  ///< of it
+  std::string block_;     ///< the block that was read last
+  std::size_t next_ = 0;  ///< next byte in it
   bool is_cut_ = false;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ranges of what can be simulated. Hosts check every value that a scenario, a model or set-up code gives against them;
-// readers of models may do so earlier, where they know the line of a file. docs/scenario.md has them with their
+// Ranges of values that can be simulated. Hosts check every value from a scenario, a model or set-up code against them.
+// Readers of models may check earlier, while they know the line of a file. docs/scenario.md lists the ranges with their
 // reasons.
 #pragma once
 
@@ -13,31 +13,31 @@
 
 namespace muro::limits {
 
-/// Of coordinates, m: there neighbouring doubles are 1.5e-8 m apart, little enough for contacts.
+/// Coordinates, m: neighbouring doubles are 1.5e-8 m apart there, close enough for contacts.
 inline constexpr double position = 1e8;
-/// Of roll, pitch and yaw, rad: an angle of many turns has lost the digits that tell where it points.
+/// Roll, pitch and yaw, rad: an angle of many turns has lost the digits that give its direction.
 inline constexpr double angle = 1e6;
-/// Of lengths and radii of shapes and of the factors of a mesh's scale, m or 1: products of three of them, over a mass,
-/// stay within what every engine's float holds.
+/// Lengths and radii of shapes, and scale factors of a mesh, m or 1: products of three of them, divided by a mass, stay
+/// within the range of every engine's float.
 inline constexpr double min_size = 1e-9, max_size = 1e6;
-/// Of a body with a mass, kg.
+/// Mass of a body, kg.
 inline constexpr double min_mass = 1e-9, max_mass = 1e9;
-/// Of entries of a tensor of inertia, kg m^2: the greatest mass at the greatest size.
+/// Entries of a tensor of inertia, kg m^2: the greatest mass at the greatest size.
 inline constexpr double inertia = 1e21;
-/// Of each component, m/s^2: thirty times that of the sun.
+/// Components of gravity, m/s^2: thirty times that of the sun.
 inline constexpr double gravity = 1e4;
-/// Of initial velocities, m/s and rad/s: beyond all that is built.
+/// Initial velocities, m/s and rad/s: more than any machine reaches.
 inline constexpr double speed = 1e5, turn_rate = 1e5;
-/// Of positions of joints, and of multipliers and offsets of joints that follow others, rad or m.
+/// Positions of joints, and multipliers and offsets of mimic joints, rad or m.
 inline constexpr double joint_position = 1e6;
-/// Of damping and friction of joints, N m s/rad, N s/m, N m or N.
+/// Damping and friction of joints, N m s/rad, N s/m, N m or N.
 inline constexpr double joint_resistance = 1e12;
-/// From here on a limit of a joint is none: model files write 1e16 and the like for it.
+/// Joint limits from this value on count as none: model files write 1e16 and similar values for no limit.
 inline constexpr double no_joint_limit = 1e9;
-/// Of Coulomb coefficients; nothing slides from far less on.
+/// Coulomb coefficients; a far smaller value already prevents all sliding.
 inline constexpr double friction = 1e20;
 
-/// Whether |x| is at most `limit`; what is not a number is not.
+/// Whether |x| is at most `limit`; false for NaN.
 inline bool within(double limit, double x) { return std::abs(x) <= limit; }
 inline bool within(double limit, const Vec3& v) {
   return within(limit, v.x()) && within(limit, v.y()) && within(limit, v.z());
@@ -45,8 +45,8 @@ inline bool within(double limit, const Vec3& v) {
 /// Whether `x` is a size that a shape can have.
 inline bool is_size(double x) { return x >= min_size && x <= max_size; }
 
-// Each says what is wrong with a value, as the end of a sentence that begins with its name: "its position has ...".
-// Empty: nothing is.
+// Each problem_of() returns what is wrong with a value, as the end of a sentence that begins with its name: "its
+// position has ...". Empty: nothing is wrong.
 
 inline std::string problem_of(const Pose& p) {
   if (!within(position, p.position)) return "has a coordinate that is not from -1e8 to 1e8 m";
@@ -85,7 +85,7 @@ inline std::string problem_of(const Shape& s) {
     case ShapeKind::cylinder:
       fine = is_size(s.size.x()) && is_size(s.size.z());
       break;
-    case ShapeKind::capsule:  // the straight part may be none
+    case ShapeKind::capsule:  // the straight part may have length 0
       fine = is_size(s.size.x()) && s.size.z() >= 0 && s.size.z() <= max_size;
       break;
     case ShapeKind::plane:
@@ -112,7 +112,7 @@ inline std::string problem_of(const JointLimits& l) {
   return resistance(l.damping) && resistance(l.friction) ? "" : "has a damping or friction that is not from 0 to 1e12";
 }
 
-/// `l` without limits that are so far away that they are none.
+/// Returns `l` without limits that are so far away that they count as none.
 inline JointLimits effective(JointLimits l) {
   constexpr double none = std::numeric_limits<double>::infinity();
   if (l.lower <= -no_joint_limit) l.lower = -none;

@@ -7,7 +7,7 @@
 
 namespace muro {
 
-/// Six digits that count, of any size: 0.05, 1e+308, 3.14159.
+/// Returns a number with six significant digits: 0.05, 1e+308, 3.14159.
 inline std::string number_text(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", x);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For messages: text that came from outside, as it may stand in a line on a terminal.
+// Text from outside as it may be shown in a line on a terminal, for messages.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,7 @@
 
 namespace muro {
 
-/// The character of UTF-8 with which `text` begins, and of how many bytes it consists; size 0: the first byte begins
-/// none.
+/// The UTF-8 character with which `text` begins, and its number of bytes; size 0: the first byte does not begin one.
 struct Utf8Character {
   std::uint32_t code = 0;
   std::size_t size = 0;
@@ -35,7 +34,7 @@ inline bool is_control(std::uint32_t code) {
          (code >= 0x2066 && code <= 0x2069);
 }
 
-/// `text` with every byte of control characters, and every byte that is no UTF-8, as \xHH. Characters in `kept` stay.
+/// Returns `text` with bytes of control characters, and bytes that are not UTF-8, as \xHH. Characters in `kept` stay.
 inline std::string printable(std::string_view text, std::string_view kept = {}) {
   constexpr char digits[] = "0123456789abcdef";
   std::string shown;
@@ -55,7 +54,7 @@ inline std::string printable(std::string_view text, std::string_view kept = {}) 
   return shown;
 }
 
-/// The first `max` bytes of `text`, without part of a character, and "..." for the rest; all of a shorter one.
+/// Returns the first `max` bytes of `text`, without a partial character, and "..."; all of a shorter text.
 inline std::string shortened(std::string_view text, std::size_t max) {
   if (text.size() <= max) return std::string(text);
   while (max > 0 && (static_cast<unsigned char>(text[max]) & 0xc0) == 0x80) --max;

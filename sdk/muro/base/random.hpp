@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counter-based random numbers: no state to keep, the same numbers in any order and on any thread.
+// Counter-based random numbers: they need no state, and are the same in any order and on any thread.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace muro {
 
-/// FNV-1a, 64 bit: keys from names, and hashes of state.
+/// FNV-1a, 64 bit: for keys from names, and for hashes of state.
 constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t hash = 0xcbf29ce484222325ull) {
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
   return hash;
@@ -32,7 +32,7 @@ constexpr std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> count
   return counter;
 }
 
-/// The numbers of one (seed, item, step). `item_key` comes from Connector::random_key.
+/// Random numbers of one (seed, item, step). `item_key` comes from Connector::random_key.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t item_key, std::uint64_t step) : step_(step) {
@@ -40,14 +40,14 @@ class Random {
         fnv1a({reinterpret_cast<const char*>(&seed), sizeof seed}, item_key ^ 0xcbf29ce484222325ull);
     key_ = {std::uint32_t(mixed), std::uint32_t(mixed >> 32)};
   }
-  /// Uniform in [0, 1), 53 bits; `i` counts the draws of this step and may come in any order.
+  /// Uniform in [0, 1), 53 bits. `i` is the index of the draw in this step; draws may be in any order.
   double uniform(std::uint32_t i) const {
     const auto words = block(i, 0);
     return unit(words[0], words[1]);
   }
-  /// Standard normal, by Box and Muller.
+  /// Standard normal, with the method of Box and Muller.
   double normal(std::uint32_t i) const { return normal_pair(i)[0]; }
-  /// Two independent standard normal numbers at little more than the price of one; `normal(i)` is the first.
+  /// Two independent standard normal numbers for little more than the cost of one; `normal(i)` is the first.
   std::array<double, 2> normal_pair(std::uint32_t i) const {
     const auto words = block(i, 1);
     const double u = 1 - unit(words[0], words[1]), angle = 6.283185307179586 * unit(words[2], words[3]);
@@ -55,7 +55,7 @@ class Random {
     const auto [sine, cosine] = elementary::sincos(angle);
     return {radius * cosine, radius * sine};
   }
-  /// normal_pair of `i`, `i` + 1, ...: the same bits, two at once where the processor has packs of two.
+  /// normal_pair of `i`, `i` + 1, ...: the same bits, two at once when the processor has packs of two.
   void normal_pairs(std::uint32_t i, std::span<std::array<double, 2>> pairs) const {
     std::size_t k = 0;
 #if defined(__SSE2__)
@@ -92,7 +92,7 @@ class Random {
   std::array<std::uint32_t, 2> key_{};
 };
 
-/// `count` normal numbers, and no more, one after the other: those of normal_pair(first), normal_pair(first + 1), ...
+/// Exactly `count` normal numbers, one after the other: those of normal_pair(first), normal_pair(first + 1), ...
 class NormalNumbers {
  public:
   NormalNumbers(const Random& random, std::size_t count, std::uint32_t first = 0)

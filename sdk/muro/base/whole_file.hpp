@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For recorders and reports: a file is written whole or not at all.
+// Complete files, for recorders and reports: a file is written completely or not at all.
 #pragma once
 
 #include <fcntl.h>
@@ -19,8 +19,8 @@
 
 namespace muro {
 
-/// Where a file that is written under this name lies: absolute, with every symbolic link followed, also one that points
-/// to nothing yet. /dev/stdout and the like become /proc/PID/fd/NUMBER. `code` is set where that cannot be told.
+/// Returns the path to which a file of this name is written: absolute, with every symbolic link followed, also a link
+/// to a missing file. /dev/stdout and similar names become /proc/PID/fd/NUMBER. `code` is set when it cannot be found.
 inline std::filesystem::path target_of(std::filesystem::path path, std::error_code& code) {
   namespace fs = std::filesystem;
   const fs::path own_descriptors = "/proc/" + std::to_string(getpid()) + "/fd";
@@ -37,19 +37,19 @@ inline std::filesystem::path target_of(std::filesystem::path path, std::error_co
 }
 
 struct WholeFileOptions {
-  bool keep_extension = false;    ///< "film.part.mp4" instead of "film.mp4.part", for writers that go by the extension
-  bool keep_unpublished = false;  ///< what was written stays in PATH.part when the file is never published
+  bool keep_extension = false;    ///< "film.part.mp4" instead of "film.mp4.part", for writers that need the extension
+  bool keep_unpublished = false;  ///< written bytes stay in PATH.part when the file is never published
 };
 
 /// A file under construction. Its bytes go to PATH.part, which `publish` renames to PATH, so that PATH is either the
-/// complete new file or what it was before. A PATH.part that is there already stays as it is: then PATH.part2, ... is
-/// used. A symbolic link stays one, and what it points to is written. A device, a pipe, or what is open already
-/// (/dev/stdout) is written in place. Errors are muro::Error with path and reason.
+/// complete new file or unchanged. An existing PATH.part is not touched: then PATH.part2, ... is used. A symbolic link
+/// stays a link, and its target is written. A device, a pipe, or a file that is open already (/dev/stdout) is written
+/// in place. Errors are muro::Error with path and reason.
 class WholeFile {
  public:
   /// Opens nothing yet.
   explicit WholeFile(std::string path, WholeFileOptions options = {}) : path_(std::move(path)), options_(options) {}
-  /// Removes what was not published.
+  /// Removes the file unless it was published.
   ~WholeFile() {
     if (descriptor_ < 0) return;
     if (has_part() && !options_.keep_unpublished) unlink(location_.c_str());
@@ -59,18 +59,18 @@ class WholeFile {
   WholeFile& operator=(const WholeFile&) = delete;
 
   const std::string& path() const { return path_; }
-  /// Where the bytes are now: PATH.part; PATH when it is published, a device or a pipe. Another library may write it.
+  /// Path of the bytes now: PATH.part, or PATH for a published file, a device or a pipe. Another library may write it.
   const std::string& location() { return open(), location_; }
-  /// Open for writing; for reading, too, where it is no device or pipe.
+  /// Descriptor for writing, and for reading unless it is a device or pipe.
   int descriptor() { return open(), descriptor_; }
-  /// Whether it is a file under construction or a complete one, which has a length; not a device or a pipe.
+  /// Whether it is a file under construction or a complete one, which has a length; false for a device or a pipe.
   bool is_regular() {
     struct stat about {};
     return fstat(descriptor(), &about) == 0 && S_ISREG(about.st_mode);
   }
   bool is_published() const { return is_published_; }
 
-  /// Creates the file at the first call. A pipe waits for its reader.
+  /// Writes bytes; the first call creates the file. A pipe waits for its reader.
   void write(std::string_view bytes) {
     open();
     while (!bytes.empty()) {
@@ -80,7 +80,7 @@ class WholeFile {
     }
   }
 
-  /// Gives the file its name. More may be written to it then.
+  /// Gives the file its name. More may be written afterwards.
   void publish() {
     open();
     // A copy of the descriptor is closed, because some file systems report a full disk only then.
@@ -91,7 +91,7 @@ class WholeFile {
     }
     is_published_ = true;
   }
-  /// What is not published is removed in the end, whatever the options say.
+  /// Removes a file that is not published in the end, whatever the options say.
   void discard() { options_.keep_unpublished = false; }
 
  private:
@@ -113,7 +113,7 @@ class WholeFile {
       descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
       if (descriptor_ < 0) fail(errno);
     } else {
-      if (exists && access(target_.c_str(), W_OK) != 0) fail(errno);  // to rename would not ask for this right
+      if (exists && access(target_.c_str(), W_OK) != 0) fail(errno);  // rename() does not need this right
       create_part(target);
       if (exists) take_over(present);
     }
@@ -132,7 +132,7 @@ class WholeFile {
     for (int k = 1; k < 1000; ++k) {
       const std::string end = ".part" + (k == 1 ? std::string() : std::to_string(k)) + extension;
       const std::size_t room = longest_name - std::min(longest_name, end.size());
-      // a name that is too long itself is left to fail
+      // a name that is too long itself then fails
       const std::string leaf = name.size() > longest_name ? name + end : stem.substr(0, room) + end;
       location_ = (target.parent_path() / leaf).string();
       descriptor_ = ::open(location_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -157,7 +157,7 @@ class WholeFile {
     return locked;
   }
 
-  /// Owner and permissions of the file that is to be replaced, as far as the user may give them.
+  /// Gives the new file owner and permissions of the file that it replaces, if the user may do so.
   void take_over(const struct stat& present) const {
     const bool given = fchown(descriptor_, present.st_uid, present.st_gid) == 0;
     if (given || present.st_uid == geteuid()) static_cast<void>(fchmod(descriptor_, present.st_mode & 0777));
@@ -169,7 +169,7 @@ class WholeFile {
 
   std::string path_;
   WholeFileOptions options_;
-  std::string target_, location_;  ///< once it is open
+  std::string target_, location_;  ///< set once it is open
   int descriptor_ = -1;
   bool is_published_ = false;
 };

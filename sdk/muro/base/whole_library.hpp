@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For those who load shared libraries: whether the file is all there.
+// A check that the file of a shared library is complete, before it is loaded.
 #pragma once
 
 #include <elf.h>
@@ -13,19 +13,19 @@
 
 namespace muro {
 
-/// The ELF number of the machine that this program is built for.
+/// ELF number of the machine for which this program is built.
 inline constexpr std::uint16_t own_elf_machine =
 #if defined(__x86_64__)
     EM_X86_64;
 #elif defined(__aarch64__)
     EM_AARCH64;
 #else
-    EM_NONE;  // any will do
+    EM_NONE;  // any machine is accepted
 #endif
 
-/// What is wrong with a shared library that was copied only in part or is for other machines, as the end of a sentence;
-/// "" when its file is as long as its tables say, or is none that they describe. The system's loader maps such a file
-/// and dies by SIGBUS where it ends, so look before dlopen().
+/// Returns what is wrong with a shared library that was copied only in part or is for other machines, as the end of a
+/// sentence. Returns "" when its file is as long as its tables say, or is no such library. The system's loader maps a
+/// partial file and dies of SIGBUS at its end, so call this before dlopen().
 inline std::string missing_part_of_library(const std::string& path) {
   std::error_code code;
   const std::uint64_t size = std::filesystem::file_size(path, code);

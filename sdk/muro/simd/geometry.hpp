@@ -32,7 +32,7 @@ template <class S, class M>
 MURO_INLINE V3<S> select(M m, const V3<S>& a, const V3<S>& b) {
   return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
 }
-/// The same value in each lane.
+/// Sets each lane to the same value.
 template <class S, class Vector>
 MURO_INLINE V3<S> splat(const Vector& v) {
   return {S(v[0]), S(v[1]), S(v[2])};
@@ -70,8 +70,8 @@ struct Q4 {
   }
 };
 
-/// Properties of type Pose, Twist, Wrench and Vec3, as numbers: position x y z, orientation x y z w; linear, angular;
-/// force, torque.
+/// Properties of type Pose and Twist as numbers: position x y z, orientation x y z w; linear, angular. A Wrench has
+/// force and torque, a Vec3 three numbers.
 template <class S>
 struct PoseOf {
   V3<S> position;

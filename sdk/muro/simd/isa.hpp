@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which build of a kernel this processor runs best. The choice never changes a result: a lane does what a plain double
-// does, operation by operation.
+// Chooses the fastest build of a kernel for this processor. The choice never changes a result: a lane performs the same
+// operations as a plain double.
 #pragma once
 
 #include <cstdlib>
@@ -8,10 +8,10 @@
 
 namespace muro::lane {
 
-/// Instruction sets that muro_add_kernels() builds for. base: what every processor of the architecture has.
+/// Instruction sets for which muro_add_kernels() builds. base: the set that every processor of the architecture has.
 enum class Isa { base, avx2, avx512 };
 
-/// The best that this processor has, or a lesser one that the environment variable MURO_ISA names (base, avx2).
+/// Returns the best set of this processor, or a lesser one that the environment variable MURO_ISA names (base, avx2).
 inline Isa best_isa() {
 #if defined(__x86_64__)
   const char* wish = std::getenv("MURO_ISA");
@@ -27,8 +27,8 @@ inline Isa best_isa() {
 
 }  // namespace muro::lane
 
-/// In a namespace: declares the constant `name` of type `Type`, which a kernel source defines once for each instruction
-/// set, and `name_for(isa)`, which chooses.
+/// Declares, in a namespace, the constant `name` of type `Type`, which a kernel source defines once for each
+/// instruction set, and `name_for(isa)`, which chooses one of them.
 #if defined(__x86_64__)
 #define MURO_DECLARE_KERNELS(Type, name)                                                                               \
   namespace base {                                                                                                     \

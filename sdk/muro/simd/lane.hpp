@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Numbers side by side: a Lane holds N values of T and calculates with all of them at once.
+// Lanes of numbers: a Lane holds N values of T and calculates with all of them at once.
 //
-// A kernel is a template over its scalar S: `double`, or a Lane. Every operation of a lane rounds as the same operation
-// of a double does, so both give the same bits. What decides between values is `select`, not `if`; an `if` over
-// any(mask) may only leave out work whose result nobody selects.
+// A kernel is a template over its scalar S: `double`, or a Lane. Every operation of a lane rounds like the same
+// operation of a double, so both give the same bits. `select` chooses between values, not `if`. An `if` over any(mask)
+// may only leave out work whose result is never selected.
 //
-// Kernel sources are compiled once for each instruction set (muro_add_kernels), with MURO_ISA naming it. They include
-// these headers and nothing else that has inline functions of weight: the linker would keep one copy of such a
-// function, perhaps one that the processor cannot run. For that reason all of this lies in a namespace of its own for
-// each instruction set.
+// Kernel sources are compiled once for each instruction set (muro_add_kernels), with MURO_ISA as its name. They include
+// these headers and no others with large inline functions: the linker would keep one copy of such a function, perhaps
+// one that the processor cannot run. For that reason these headers have a namespace of their own for each instruction
+// set.
 #pragma once
 
 #include "muro/simd/vector.hpp"
@@ -16,7 +16,7 @@
 namespace muro::lane {
 inline namespace MURO_ISA {
 
-/// Which of N values satisfy a condition.
+/// The result of a condition for each of N values.
 #if MURO_HAS_MASK_REGISTERS
 template <class T, int N>
 struct Mask {
@@ -87,7 +87,7 @@ using Double8 = Lane<double, 8>;
 using Float8 = Lane<float, 8>;
 using Float16 = Lane<float, 16>;
 
-/// How many values a scalar stands for, and its mask.
+/// The number of values in a scalar, and its mask.
 template <class S>
 struct Traits {
   static constexpr int count = 1;
@@ -105,9 +105,9 @@ inline constexpr int count_of = Traits<S>::count;
 template <class S>
 using MaskOf = typename Traits<S>::M;
 
-/// Serves `count` robots, at most 8, in one lane or one by one, whichever takes less time: by `part`, which has
-/// `unsigned operator()<S>(int first, int used)`, for `used` of them from number `first` on. It returns bits, that of
-/// its first robot lowest; those of all robots come back.
+/// Serves `count` robots, at most 8, in one lane or one after the other, whichever takes less time. It calls `unsigned
+/// part.operator()<S>(int first, int used)` for `used` robots from number `first` on. `part` returns bits, the lowest
+/// for its first robot; the bits of all robots are returned.
 template <class Part>
 MURO_INLINE unsigned in_lanes(int count, const Part& part) {
   constexpr int worth_a_lane = vectors::register_bytes >= 32 ? 2 : 3;
@@ -130,7 +130,7 @@ MURO_INLINE Lane<T, N> select(Mask<T, N> m, Lane<T, N> a, Lane<T, N> b) {
   return vectors::choose(m.v, a.v, b.v);
 #endif
 }
-/// The lesser; `b` where they are equal or one is NaN.
+/// The lesser value; `b` when they are equal or one is NaN.
 template <class S>
 MURO_INLINE S min(S a, S b) {
 #if MURO_HAS_MASK_REGISTERS
@@ -138,7 +138,7 @@ MURO_INLINE S min(S a, S b) {
 #endif
   return select(a < b, a, b);
 }
-/// The greater; `b` where they are equal or one is NaN.
+/// The greater value; `b` when they are equal or one is NaN.
 template <class S>
 MURO_INLINE S max(S a, S b) {
 #if MURO_HAS_MASK_REGISTERS
@@ -153,7 +153,7 @@ MURO_INLINE Lane<T, N> abs(Lane<T, N> a) {
   return vectors::magnitude(a.v);
 }
 
-/// Bit i: whether value i satisfies the condition.
+/// Bit i of the result: whether value i satisfies the condition.
 MURO_INLINE unsigned bits(bool m) { return m; }
 template <class T, int N>
 MURO_INLINE unsigned bits(Mask<T, N> m) {
@@ -163,7 +163,7 @@ MURO_INLINE unsigned bits(Mask<T, N> m) {
   return vectors::bits_of(m.v);
 #endif
 }
-/// The mask of values whose bits are set.
+/// Returns the mask of the values whose bits are set.
 template <class S>
 MURO_INLINE MaskOf<S> mask_of(unsigned set) {
   if constexpr (count_of<S> == 1) {
@@ -197,9 +197,9 @@ MURO_INLINE Lane<T, N> sqrt(Lane<T, N> a) {
   return vectors::root(a.v);
 }
 
-// --- memory: one place a lane
+// --- memory: one place for each lane
 
-/// Where each of the values of S has its data.
+/// Addresses of the data of each value of S.
 template <class S, class T = const double>
 struct Places {
   T* at[count_of<S>];
@@ -212,7 +212,7 @@ MURO_INLINE Places<S> as_read(const Places<S, double>& places) {
   return p;
 }
 
-/// Number `k` from each place.
+/// Reads number `k` of each place.
 template <class S>
 MURO_INLINE S load(const Places<S>& from, std::ptrdiff_t k) {
   if constexpr (count_of<S> == 1) {
@@ -221,7 +221,7 @@ MURO_INLINE S load(const Places<S>& from, std::ptrdiff_t k) {
     return vectors::gather<typename S::Vector>(from.at, k);
   }
 }
-/// Number `k` to each place of the first `used` lanes.
+/// Writes number `k` of each place of the first `used` lanes.
 template <class S>
 MURO_INLINE void store(const Places<S, double>& to, std::ptrdiff_t k, S value, int used = count_of<S>) {
   if constexpr (count_of<S> == 1) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Properties as kernels see them: numbers in a row. For plugins; kernels themselves do not include this.
+// Properties as contiguous numbers, for kernels. Plugins include this; kernels do not.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,8 @@ inline const double* numbers(const Pose* p) { return p->position.data(); }
 inline const double* numbers(const Twist* t) { return t->linear.data(); }
 inline const double* numbers(const Wrench* w) { return w->force.data(); }
 
-/// How many numbers `to` lies behind `from`. Robots of one model mostly have their properties in equal distances, so
-/// one address and the distances say where all of them lie. By address, for different properties are no array.
+/// Distance from `from` to `to`, in numbers. Robots of one model mostly have their properties at equal distances, so
+/// one address and the distances locate all of them. Computed from addresses, since different properties are no array.
 inline std::ptrdiff_t numbers_between(const double* from, const double* to) {
   const auto bytes = reinterpret_cast<std::intptr_t>(to) - reinterpret_cast<std::intptr_t>(from);
   return bytes / std::ptrdiff_t(sizeof(double));

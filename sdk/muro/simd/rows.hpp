@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers that lie side by side in each place, as those of a pose do. They are read and written row by row and turned
-// into lanes in registers, which takes less time than number by number.
+// Contiguous numbers of each place, such as those of a pose. They are read and written row by row and turned into lanes
+// in registers, which is faster than number by number.
 #pragma once
 
 #include "muro/simd/geometry.hpp"
@@ -10,13 +10,13 @@ inline namespace MURO_ISA {
 
 namespace detail {
 
-/// Four places at once where registers hold as many doubles, else two.
+/// Four places at once when registers hold as many doubles, otherwise two.
 inline constexpr int group = vectors::register_bytes >= 32 ? 4 : 2;
 using Two = typename vectors::VectorOf<double, 2>::Type;
 using Group = typename vectors::VectorOf<double, group>::Type;
 template <class S>
 inline constexpr int groups_of = count_of<S> / group;
-/// Whether values are handled in groups: Double4 and Double8.
+/// Whether values are handled in groups; true for Double4 and Double8.
 template <class S>
 inline constexpr bool has_groups = std::is_same_v<typename Traits<S>::Value, double> && (count_of<S> >= group);
 
@@ -30,7 +30,7 @@ MURO_INLINE void store_at(double* to, const Vector& v) {
   __builtin_memcpy(to, &v, sizeof v);
 }
 
-/// Lanes g * group to g * group + group - 1.
+/// Returns lanes g * group to g * group + group - 1.
 template <int g, class Vector>
 MURO_INLINE Group part(const Vector& v) {
   if constexpr (std::is_same_v<Vector, Group>) {
@@ -57,7 +57,7 @@ MURO_INLINE Vector joined(const Part* parts) {
 #if MURO_HAS_MASK_REGISTERS
 using Eight = typename vectors::VectorOf<double, 8>::Type;
 
-/// The first and the second number of each of eight places. Pairs go into their quarters while they are loaded.
+/// Reads the first and the second number of each of eight places. Pairs are put into their quarters during the load.
 MURO_INLINE void load_eight_pairs(const double* const* at, std::ptrdiff_t k, Eight& first, Eight& second) {
   const auto quarters = [&](const double* const* from) {
     __m512d v = _mm512_castpd128_pd512(_mm_loadu_pd(from[0] + k));
@@ -69,7 +69,7 @@ MURO_INLINE void load_eight_pairs(const double* const* at, std::ptrdiff_t k, Eig
   first = Eight(_mm512_unpacklo_pd(even, odd));
   second = Eight(_mm512_unpackhi_pd(even, odd));
 }
-/// The first four numbers of each of eight places.
+/// Reads the first four numbers of each of eight places.
 MURO_INLINE void load_eight_fours(const double* const* at, std::ptrdiff_t k, Eight* to) {
   const auto halves = [&](const double* low, const double* high) {
     return _mm512_mask_broadcast_f64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(low + k)), 0xf0,
@@ -83,7 +83,7 @@ MURO_INLINE void load_eight_fours(const double* const* at, std::ptrdiff_t k, Eig
   to[2] = Eight(_mm512_shuffle_f64x2(even_ab, even_cd, 0xdd));
   to[3] = Eight(_mm512_shuffle_f64x2(odd_ab, odd_cd, 0xdd));
 }
-/// Two numbers to each of eight places.
+/// Writes two numbers to each of eight places.
 MURO_INLINE void store_eight_pairs(double* const* at, std::ptrdiff_t k, const Eight& first, const Eight& second) {
   const auto quarters = [&](double* const* to, __m512d v) {
     _mm_storeu_pd(to[0] + k, _mm512_castpd512_pd128(v));
@@ -94,7 +94,7 @@ MURO_INLINE void store_eight_pairs(double* const* at, std::ptrdiff_t k, const Ei
   quarters(at, _mm512_unpacklo_pd(__m512d(first), __m512d(second)));
   quarters(at + 1, _mm512_unpackhi_pd(__m512d(first), __m512d(second)));
 }
-/// Four numbers to each of eight places.
+/// Writes four numbers to each of eight places.
 MURO_INLINE void store_eight_fours(double* const* at, std::ptrdiff_t k, const Eight& a, const Eight& b, const Eight& c,
                                    const Eight& d) {
   const auto halves = [&](double* const* to, __m512d first, __m512d last) {
@@ -108,7 +108,7 @@ MURO_INLINE void store_eight_fours(double* const* at, std::ptrdiff_t k, const Ei
   halves(at, _mm512_unpacklo_pd(__m512d(a), __m512d(b)), _mm512_unpacklo_pd(__m512d(c), __m512d(d)));
   halves(at + 1, _mm512_unpackhi_pd(__m512d(a), __m512d(b)), _mm512_unpackhi_pd(__m512d(c), __m512d(d)));
 }
-/// Numbers k to n - 1 of each of eight places.
+/// Reads numbers k to n - 1 of each of eight places.
 template <int k, int n, class S>
 MURO_INLINE void load_eight_from(const Places<S>& from, std::ptrdiff_t first, S (&to)[n]) {
   if constexpr (n - k >= 4) {
@@ -116,7 +116,7 @@ MURO_INLINE void load_eight_from(const Places<S>& from, std::ptrdiff_t first, S 
     load_eight_fours(from.at, first + k, four);
     for (int i = 0; i < 4; ++i) to[k + i].v = four[i];
     load_eight_from<k + 4, n, S>(from, first, to);
-  } else if constexpr (n - k == 3 && n > 3) {  // rather one number twice than two pieces
+  } else if constexpr (n - k == 3 && n > 3) {  // one number twice is faster than two pieces
     Eight four[4];
     load_eight_fours(from.at, first + k - 1, four);
     for (int i = 1; i < 4; ++i) to[k - 1 + i].v = four[i];
@@ -129,7 +129,7 @@ MURO_INLINE void load_eight_from(const Places<S>& from, std::ptrdiff_t first, S 
 }
 template <int k, int n, class S>
 MURO_INLINE void store_eight_from(const Places<S, double>& to, std::ptrdiff_t first, const S (&from)[n]) {
-  constexpr int left = n - k, at = left == 3 && n > 3 ? k - 1 : k;  // rather one number twice than two pieces
+  constexpr int left = n - k, at = left == 3 && n > 3 ? k - 1 : k;  // one number twice is faster than two pieces
   if constexpr (n - at >= 4) {
     store_eight_fours(to.at, first + at, from[at].v, from[at + 1].v, from[at + 2].v, from[at + 3].v);
     store_eight_from<at + 4, n, S>(to, first, from);
@@ -142,7 +142,7 @@ MURO_INLINE void store_eight_from(const Places<S, double>& to, std::ptrdiff_t fi
 }
 #endif
 
-/// The first and the second number of each place of a group.
+/// Reads the first and the second number of each place of a group.
 MURO_INLINE void load_pairs(const double* const* at, std::ptrdiff_t k, Group& first, Group& second) {
 #if defined(__AVX__)
   const Group even = __builtin_shufflevector(load_two(at[0] + k), load_two(at[2] + k), 0, 1, 2, 3);
@@ -169,7 +169,7 @@ MURO_INLINE void store_pairs(double* const* at, std::ptrdiff_t k, const Group& f
   if (which & 2) store_at(at[1] + k, Group(__builtin_shufflevector(first, second, 1, 3)));
 #endif
 }
-/// Four numbers to each place of a group.
+/// Writes four numbers to each place of a group.
 MURO_INLINE void store_fours(double* const* at, std::ptrdiff_t k, const Group (&v)[4], unsigned which) {
 #if defined(__AVX__)
   const Group even01 = __builtin_shufflevector(v[0], v[1], 0, 4, 2, 6);
@@ -186,10 +186,10 @@ MURO_INLINE void store_fours(double* const* at, std::ptrdiff_t k, const Group (&
 #endif
 }
 
-/// Numbers k to n - 1 of the places of group g.
+/// Writes numbers k to n - 1 of the places of group g.
 template <int k, int n, int g, class S>
 MURO_INLINE void store_from(const Places<S, double>& to, std::ptrdiff_t first, const S (&from)[n], unsigned which) {
-  constexpr int left = n - k, at = left == 3 && n > 3 ? k - 1 : k;  // rather one number twice than two pieces
+  constexpr int left = n - k, at = left == 3 && n > 3 ? k - 1 : k;  // one number twice is faster than two pieces
   double* const* const places = to.at + g * group;
   const unsigned mine = which >> g * group;
   if constexpr (n - at >= 4) {
@@ -213,7 +213,7 @@ MURO_INLINE void store_groups(const Places<S, double>& to, std::ptrdiff_t first,
 
 }  // namespace detail
 
-/// Numbers that lie as the values of S do.
+/// Reads contiguous numbers in the order of the values of S.
 template <class S>
 MURO_INLINE S load_side_by_side(const double* from) {
   S value;
@@ -225,7 +225,7 @@ MURO_INLINE void store_side_by_side(double* to, S value) {
   __builtin_memcpy(to, &value, sizeof value);
 }
 
-/// Numbers `first` to `first` + n - 1 of each place.
+/// Reads numbers `first` to `first` + n - 1 of each place.
 template <int n, class S>
 MURO_INLINE void load_rows(const Places<S>& from, std::ptrdiff_t first, S (&to)[n]) {
   if constexpr (detail::has_groups<S>) {
@@ -245,12 +245,12 @@ MURO_INLINE void load_rows(const Places<S>& from, std::ptrdiff_t first, S (&to)[
   }
 }
 
-/// A bit for each of the first `used` lanes.
+/// Returns a bit for each of the first `used` lanes.
 constexpr unsigned first_lanes(int used) { return (1u << used) - 1; }
 template <class S>
 inline constexpr unsigned all_lanes = first_lanes(count_of<S>);
 
-/// To n numbers of each place, from number `first` on, of those lanes whose bit is set in `which`.
+/// Writes n numbers of each place, from number `first` on, for the lanes whose bit is set in `which`.
 template <int n, class S>
 MURO_INLINE void store_rows(const Places<S, double>& to, std::ptrdiff_t first, const S (&from)[n],
                             unsigned which = all_lanes<S>) {
@@ -260,7 +260,7 @@ MURO_INLINE void store_rows(const Places<S, double>& to, std::ptrdiff_t first, c
     if constexpr (count_of<S> == 8)
       if (which == all_lanes<S>) return detail::store_eight_from<0, n, S>(to, first, from);
 #endif
-    if (which == all_lanes<S>)  // without a question for each place
+    if (which == all_lanes<S>)  // without a check for each place
       detail::store_groups<n, S>(to, first, from, all_lanes<S>, groups);
     else
       detail::store_groups<n, S>(to, first, from, which, groups);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sine and cosine over any scalar of lane.hpp: the same bits for a double and for a lane, on every machine, and those
-// of elementary::sincos (muro/base/elementary.hpp).
+// Sine and cosine over any scalar of lane.hpp. The bits are the same for a double and for a lane, on every machine, and
+// the same as those of elementary::sincos (muro/base/elementary.hpp).
 #pragma once
 
 #include <sleef.h>
@@ -17,7 +17,7 @@ struct SinCos {
 
 namespace detail {
 
-/// By SLEEF's functions without fused multiply-add, which have equal bits for one number and for packs.
+/// Uses SLEEF's functions without fused multiply-add, which have equal bits for one number and for packs.
 template <class Vector>
 MURO_INLINE SinCos<Vector> sincos_of(const Vector& a) {
   if constexpr (vectors::is_pair<Vector>) {

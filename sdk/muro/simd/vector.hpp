@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The compiler's vectors, in registers or in pairs of them: what lane.hpp is made of.
+// The compiler's vectors, in registers or in pairs of registers; lane.hpp is built on them.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 #define MURO_ISA base
 #endif
 #define MURO_INLINE [[gnu::always_inline]] inline
-/// Whether comparisons give bits in registers of their own.
+/// Whether comparisons give bits in separate mask registers.
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 #define MURO_HAS_MASK_REGISTERS 1
 #else
@@ -37,8 +37,8 @@ inline constexpr int register_bytes = 16;
 template <class Half>
 struct Pair;
 
-/// N values of T: one register, or a pair of halves. (The compiler's own vectors may be longer than a register, but it
-/// then compares and chooses value by value.)
+/// N values of T: one register, or a pair of halves. (The compiler's own vectors may be longer than a register, but
+/// then it compares and chooses value by value.)
 template <class T, int N, bool one_register = (N * sizeof(T) <= register_bytes)>
 struct VectorOf {
   using Type = Pair<typename VectorOf<T, N / 2>::Type>;
@@ -79,7 +79,7 @@ inline constexpr bool is_pair = false;
 template <class Half>
 inline constexpr bool is_pair<Pair<Half>> = true;
 
-/// What one element of a vector is.
+/// The type of one element of a vector.
 template <class Vector>
 struct ElementOf {
   using Type = std::remove_cvref_t<decltype(Vector{}[0])>;
@@ -105,15 +105,15 @@ MURO_INLINE void set(Vector& v, int i, Element<Vector> x) {
   else
     v[i] = x;
 }
-/// x in every place.
+/// Sets every place to x.
 template <class Vector>
 MURO_INLINE Vector splat(Element<Vector> x) {
   if constexpr (is_pair<Vector>)
     return {splat<decltype(Vector::low)>(x), splat<decltype(Vector::low)>(x)};
   else
-    return x - Vector{};  // keeps the sign of a zero, as 0 + x would not
+    return x - Vector{};  // keeps the sign of a zero; 0 + x would not
 }
-/// Element i is number k of what at[i] points to.
+/// Sets element i to number k of the array at[i].
 template <class Vector, int... i>
 MURO_INLINE Vector gather_into(const Element<Vector>* const* at, std::ptrdiff_t k, std::integer_sequence<int, i...>) {
   return Vector{at[i][k]...};
@@ -128,10 +128,10 @@ MURO_INLINE Vector gather(const Element<Vector>* const* at, std::ptrdiff_t k) {
   }
 }
 #if MURO_HAS_MASK_REGISTERS
-/// How two values compare; the numbers are those of the instruction set, for floating-point and whole numbers.
+/// A comparison of two values. The numbers are those of the instruction set, for floating-point and for whole numbers.
 enum class Comparison { less, less_or_equal, greater, greater_or_equal, equal };
 
-/// Bit i: whether element i of `a` compares so with that of `b`.
+/// Bit i of the result: whether element i of `a` compares so with element i of `b`.
 template <Comparison c, class Vector>
 MURO_INLINE unsigned compare(const Vector& a, const Vector& b) {
   constexpr int real[] = {_CMP_LT_OS, _CMP_LE_OS, _CMP_GT_OS, _CMP_GE_OS, _CMP_EQ_OQ};
@@ -150,7 +150,7 @@ MURO_INLINE unsigned compare(const Vector& a, const Vector& b) {
     return _mm512_cmp_epi32_mask(__m512i(a), __m512i(b), whole[int(c)]);
   }
 }
-/// `a` where the bit is set, `b` elsewhere.
+/// Returns `a` where the bit is set, `b` elsewhere.
 template <class Vector>
 MURO_INLINE Vector choose_by_bits(unsigned bits, const Vector& a, const Vector& b) {
   using T = Element<Vector>;
@@ -167,7 +167,7 @@ MURO_INLINE Vector choose_by_bits(unsigned bits, const Vector& a, const Vector& 
     return Vector(_mm512_mask_blend_epi32(__mmask16(bits), __m512i(b), __m512i(a)));
   }
 }
-/// The lesser and the greater; `b` where they are equal or one is NaN.
+/// The lesser and the greater value; `b` when they are equal or one is NaN.
 template <class Vector>
 MURO_INLINE Vector lesser(const Vector& a, const Vector& b) {
   if constexpr (std::is_same_v<Element<Vector>, double> && sizeof a == 64)
@@ -192,7 +192,7 @@ MURO_INLINE Vector greater(const Vector& a, const Vector& b) {
 }
 #endif
 
-/// `a` where the mask (of integers) is set, `b` elsewhere.
+/// Returns `a` where the mask (of integers) is set, `b` elsewhere.
 template <class Mask, class Vector>
 MURO_INLINE Vector choose(const Mask& m, const Vector& a, const Vector& b) {
   if constexpr (is_pair<Vector>)
@@ -200,7 +200,7 @@ MURO_INLINE Vector choose(const Mask& m, const Vector& a, const Vector& b) {
   else
     return m ? a : b;
 }
-/// Without the signs.
+/// Removes the signs.
 template <class Vector>
 MURO_INLINE Vector magnitude(const Vector& v) {
   if constexpr (is_pair<Vector>) {

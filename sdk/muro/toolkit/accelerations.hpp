@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For motions: what accelerometers and force sensors read, from the velocities before and after a step.
+// Accelerations for motions: the values for accelerometers and force sensors, from velocities before and after a step.
 #pragma once
 
 #include <algorithm>
@@ -11,29 +11,30 @@
 
 namespace muro {
 
-/// For the description of a motion: what it writes.
+/// Properties that a motion writes, for its description.
 inline constexpr PropertyUse writes_acceleration{"acceleration", "of the base, where something reads it"};
 inline constexpr PropertyUse writes_joint_acceleration{"joint.acceleration", "of joints, where something reads it"};
 
-/// How a motion moves the base of a robot; so its acceleration follows from its velocities.
+/// The way in which a motion moves the base of a robot; it says how acceleration follows from velocities.
 enum class BaseMotion : std::uint8_t {
-  /// As its velocity in its own axes says: a = R (v_b' - v_b) / h + w x v. An arc at constant speed is exact.
+  /// The motion sets the velocity in body axes: a = R (v_b' - v_b) / h + w x v. An arc at constant speed is exact.
   kinematic,
-  /// As forces at its centre of mass say: (v_c' - v_c) / h in world axes. A free fall is exact, also while it spins.
+  /// Forces act at the centre of mass: (v_c' - v_c) / h in world axes. A free fall is exact, also while the body spins.
   by_forces,
 };
 
-/// Writes `acceleration` of the base and `joint.acceleration` of joints where somebody reads them; elsewhere it costs
-/// nothing and makes no property. Differences are taken within one step, so hand-overs between motions and what is
-/// moved from outside between steps leave no trace.
+/// Writes `acceleration` of the base and `joint.acceleration` of joints when something reads them. Otherwise it costs
+/// nothing and creates no property. Differences are taken within one step, so hand-overs between motions and changes
+/// from outside between steps have no effect.
 class Accelerations {
  public:
-  /// `vertices`: what is known of meshes, for what a robot touches at the start; else any mesh counts as touched.
+  /// `vertices`: gives vertices of meshes, for contacts at the start; without it any mesh counts as touched.
   explicit Accelerations(MeshVertices vertices = {}) : vertices_(std::move(vertices)) {}
 
-  /// Of item `i`; in the `connect_by_name` of a motion that writes pose, twist and joint velocities. `base`: of the
-  /// body that is the base, in its frame; for motions by forces. `keeps_applied`: the motion lets wrenches act on the
-  /// links and says which (keys::applied_wrench); after a step of one that does not, they are not known. [setup]
+  /// Connects item `i`. Call in `connect_by_name` of a motion that writes pose, twist and joint velocities. `base`:
+  /// inertia of the body that is the base, in its frame; for motions by forces. `keeps_applied`: the motion lets
+  /// wrenches act on the links and writes them (keys::applied_wrench). After a step of a motion that does not, they are
+  /// unknown. [setup]
   void connect_by_name(Connector& c, std::uint32_t i, BaseMotion how, const Inertia& base = {},
                        bool keeps_applied = false) {
     const Item& item = c.items()[i];
@@ -60,10 +61,10 @@ class Accelerations {
     robots_.push_back(std::move(robot));
   }
 
-  /// Whether nobody reads an acceleration.
+  /// Whether nothing reads an acceleration.
   bool empty() const { return robots_.empty(); }
 
-  /// Before the motion carries item `i` on. [step]
+  /// Call before the motion moves item `i`. [step]
   void begin_step(std::uint32_t i) {
     OfRobot* const r = find(i);
     if (!r) return;
@@ -78,7 +79,7 @@ class Accelerations {
     }
   }
 
-  /// When it has carried it on by `dt` (s). [step]
+  /// Call after the motion has moved it by `dt` (s). [step]
   void end_step(std::uint32_t i, double dt) {
     OfRobot* const r = find(i);
     if (!r) return;
@@ -117,13 +118,13 @@ class Accelerations {
     Out<Twist> twist, acceleration;
     BaseMotion how = BaseMotion::kinematic;
     Vec3 com = Vec3::Zero();               ///< m, in the frame of the base
-    Twist before;                          ///< by forces: of the centre; else in the axes of the base
-    Vec3 centre = Vec3::Zero();            ///< m, from the base's origin to its centre of mass, world axes ...
-    double centre_axes[4] = {0, 0, 0, 0};  ///< ... with this orientation of the base (x, y, z, w)
+    Twist before;                          ///< by_forces: velocity of the centre; else in the axes of the base
+    Vec3 centre = Vec3::Zero();            ///< m, from the base's origin to its centre of mass, in world axes
+    double centre_axes[4] = {0, 0, 0, 0};  ///< orientation of the base to which `centre` belongs (x, y, z, w)
     std::vector<Joint> joints;
-    std::vector<Out<Wrench>> applied;  ///< of links, where another motion of the robot keeps them
+    std::vector<Out<Wrench>> applied;  ///< applied wrenches of links that another motion of the robot keeps
 
-    /// Most steps begin where the one before has ended.
+    /// Most steps begin with the orientation at which the step before has ended.
     void place_centre() {
       const double* const q = pose->orientation.coeffs().data();
       if (q[0] == centre_axes[0] && q[1] == centre_axes[1] && q[2] == centre_axes[2] && q[3] == centre_axes[3]) return;
@@ -133,7 +134,8 @@ class Accelerations {
       centre = {com.x() + q[3] * tx + q[1] * tz - q[2] * ty, com.y() + q[3] * ty + q[2] * tx - q[0] * tz,
                 com.z() + q[3] * tz + q[0] * ty - q[1] * tx};
     }
-    /// By forces: of the centre. Numbers instead of vectors: it is done for each robot in each step.
+    /// Keeps the velocity of the centre, for by_forces. Numbers instead of vectors: it runs for each robot in each
+    /// step.
     void keep_velocity() {
       const double *v = twist->linear.data(), *w = twist->angular.data(), *c = centre.data();
       double *linear = before.linear.data(), *angular = before.angular.data();
@@ -159,7 +161,7 @@ class Accelerations {
       const Quat& axes = pose->orientation;
       return {axes * change + twist->angular.cross(twist->linear), axes * turning};
     }
-    /// a_O = a_C - alpha x c - w x (w x c), with the centre in its place
+    /// a_O = a_C - alpha x c - w x (w x c), with place_centre() done before
     Twist of_centre(const Vec3& change, const Vec3& turning) const {
       const Vec3& w = twist->angular;
       return {change - turning.cross(centre) - w.cross(w.cross(centre)), turning};
@@ -174,8 +176,8 @@ class Accelerations {
     return of_item_.empty() || of_item_[i] < 0 ? nullptr : &robots_[std::size_t(of_item_[i])];
   }
 
-  /// What stands, or moves as commanded, keeps its velocity in its own axes; what forces move and touches nothing falls
-  /// and turns as Euler's equations say.
+  /// Initial acceleration. A body that stands, or moves as commanded, keeps its velocity in its own axes. A body that
+  /// forces move and that touches nothing falls and turns according to Euler's equations.
   Twist initial(const Connector& c, const RobotView& robot, OfRobot& r, const Inertia& base) {
     if (r.how == BaseMotion::by_forces && !contact_) contact_.emplace(c, vertices_);
     if (r.how == BaseMotion::kinematic || contact_->touches(robot)) return r.of_body_axes(Vec3::Zero(), Vec3::Zero());
@@ -189,7 +191,7 @@ class Accelerations {
     return r.of_centre(gravity, axes * turning);
   }
 
-  std::vector<std::int32_t> of_item_;  ///< place in robots_; -1: nobody reads of it
+  std::vector<std::int32_t> of_item_;  ///< index in robots_; -1: nothing reads an acceleration of it
   std::vector<OfRobot> robots_;
   MeshVertices vertices_;
   std::optional<InitialContact> contact_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a robot stands on something when a run begins.
+// A check whether a robot touches something when a run begins.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 
 namespace muro {
 
-/// The vertices (m) of the convex hull of a shape's mesh, scaled, in the frame of the shape; empty where they are not
-/// known. [setup]
+/// Returns the vertices (m) of the convex hull of a shape's mesh, scaled, in the frame of the shape; empty when they
+/// are unknown. [setup]
 using MeshVertices = std::function<std::vector<Vec3>(const Connector& c, const Shape& shape)>;
 
-/// The collision shapes of a scene at the start: against planes as they are (meshes as their convex hulls), against
-/// each other as boxes along the axes of the world. A robot that has a mesh whose vertices are not known, or is asked
-/// about one, counts as touching it.
+/// The collision shapes of a scene at the start. Against planes they count with their exact shape (meshes as convex
+/// hulls), against each other as boxes along the axes of the world. A mesh whose vertices are unknown counts as
+/// touching, for its own robot and for the others.
 class InitialContact {
  public:
   /// [setup]
@@ -42,7 +42,7 @@ class InitialContact {
     }
   }
 
-  /// Whether a shape of the robot overlaps, or is within 1 mm of, one of another robot or of scenery.
+  /// Whether a shape of the robot overlaps a shape of another robot or of scenery, or is within 1 mm of it.
   bool touches(const RobotView& robot) const {
     for (const Box& a : boxes_) {
       if (a.robot != robot.id) continue;
@@ -63,9 +63,9 @@ class InitialContact {
     bool is_unknown = false;      ///< it is a mesh whose vertices are not known
     std::int32_t mesh = no_mesh;  ///< in meshes_
     Shape shape;
-    Pose pose;  ///< of the shape
+    Pose pose;  ///< pose of the shape
   };
-  /// Which file, at which scale: the mesh of this number in meshes_.
+  /// File and scale of a mesh; its place in the list is its index in meshes_.
   using MeshFile = std::tuple<TextId, double, double, double>;
 
   std::int32_t mesh_of(const Connector& c, const MeshVertices& vertices, std::vector<MeshFile>& files,
@@ -90,7 +90,7 @@ class InitialContact {
       }
       Box box{.bounds = bounds_of(shape, pose), .robot = robot, .shape = shape, .pose = pose};
       Aabb& bounds = box.bounds;
-      if (shape.kind == ShapeKind::heightmap) {  // solid below its surface, which is no higher than its value 1
+      if (shape.kind == ShapeKind::heightmap) {  // solid below its surface, which is not higher than its value 1
         bounds.low.z() = -std::numeric_limits<double>::infinity();
         bounds.high.z() += shape.size.z();
       }
@@ -104,7 +104,7 @@ class InitialContact {
       boxes_.push_back(box);
     }
   }
-  /// m, of the nearest point from a plane (0 for a mesh whose vertices are not known); below 0 behind it.
+  /// Distance (m) of the nearest point from a plane (0 for a mesh whose vertices are unknown); below 0 behind it.
   double distance(const Box& box, const Pose& plane) const {
     const Vec3 normal = plane.orientation * Vec3::UnitZ();
     if (box.is_unknown) return 0;
@@ -120,7 +120,7 @@ class InitialContact {
 
   std::vector<Box> boxes_;
   std::vector<Pose> planes_;
-  std::vector<std::vector<Vec3>> meshes_;  ///< by number of the file: vertices, in the frame of the shape
+  std::vector<std::vector<Vec3>> meshes_;  ///< vertices by index of the file, in the frame of the shape
 };
 
 }  // namespace muro

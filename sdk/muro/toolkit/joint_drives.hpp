@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What drives the joints of a robot: the words that all motions with driven joints share.
+// Drives of the joints of a robot: the parameters that all motions with driven joints share.
 #pragma once
 
 #include <string>
@@ -11,24 +11,23 @@
 
 namespace muro {
 
-/// What a joint follows. The limits of the model hold in each mode.
+/// The target that a joint follows. The limits of the model hold in each mode.
 enum class DriveMode : std::uint8_t {
   velocity,      ///< joint.velocity.target
   position,      ///< joint.position.target
   acceleration,  ///< joint.acceleration.target
-  effort,        ///< joint.effort.target acts on it
-  passive,       ///< nothing: it moves freely, with its damping and friction
+  effort,        ///< joint.effort.target acts on the joint
+  passive,       ///< no target: the joint moves freely, with its damping and friction
 };
 
-/// Parameters of a motion with driven joints, beside `joints`, the mode of all joints that none of them names. A name
-/// is that of a joint, or begins like it and ends with `*`.
+/// Parameters of a motion with driven joints, in addition to `joints`, the mode of all joints that none of them names.
+/// A name is that of a joint, or the beginning of one followed by `*`.
 inline constexpr Parameter velocity_joints = texts("velocity_joints", "joints that follow velocity targets");
 inline constexpr Parameter position_joints = texts("position_joints", "joints that follow position targets");
 inline constexpr Parameter effort_joints = texts("effort_joints", "joints that efforts drive");
 inline constexpr Parameter passive_joints = texts("passive_joints", "joints that nothing drives");
 
-/// The mode that a word of the parameter `joints` stands for; `auto`, which leaves it open what joints follow, for the
-/// first.
+/// Returns the mode for a value of the parameter `joints`. For `auto`, which leaves the mode open, it is the first one.
 inline DriveMode drive_mode_of(std::string_view word) {
   if (word == "auto") return DriveMode::velocity;
   constexpr std::pair<std::string_view, DriveMode> words[] = {{"velocity", DriveMode::velocity},
@@ -43,7 +42,7 @@ inline DriveMode drive_mode_of(std::string_view word) {
 
 namespace detail {
 
-/// Whether `pattern` is `name`, or its beginning followed by `*`.
+/// Whether `pattern` is `name`, or a beginning of it followed by `*`.
 inline bool names_joint(std::string_view pattern, std::string_view name) {
   if (pattern.empty() || pattern.back() != '*') return pattern == name;
   return name.substr(0, pattern.size() - 1) == pattern.substr(0, pattern.size() - 1);
@@ -51,8 +50,8 @@ inline bool names_joint(std::string_view pattern, std::string_view name) {
 
 }  // namespace detail
 
-/// The mode of every link's joint, from `joints` and the four lists of names; what they say of fixed and mimic joints
-/// does not count. `is_open`: of each link, whether no list names its joint and `joints` is `auto`. Throws Error for a
+/// Returns the mode of every link's joint, from `joints` and the four lists of names; modes of fixed and mimic joints
+/// do not count. `is_open`: for each link, whether no list names its joint and `joints` is `auto`. Throws Error for a
 /// name that no joint has and for a joint with two modes. [setup]
 inline std::vector<DriveMode> drive_modes_of(const Connector& connector, const RobotView& robot, const Parameters& p,
                                              std::vector<bool>* is_open = nullptr) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a drive has to move: the inertia of the bodies behind a joint.
+// Inertia that a drive has to move: that of the bodies behind a joint.
 #pragma once
 
 #include <vector>

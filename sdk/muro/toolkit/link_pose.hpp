@@ -6,7 +6,7 @@
 
 namespace muro {
 
-/// The pose of a link's frame in its parent's when its joint is at `position` (rad or m).
+/// Pose of a link's frame in its parent's frame when its joint is at `position` (rad or m).
 inline Pose pose_in_parent(const Link& link, double position) {
   switch (link.joint) {
     case JointKind::revolute:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mass properties of a whole robot at the start, for algorithms that see it as one body.
+// Mass properties of a whole robot at the start, for algorithms that treat it as one body.
 #pragma once
 
 #include <vector>
@@ -11,21 +11,21 @@
 
 namespace muro {
 
-/// The position (rad or m) of every link's joint at the start: `joint.position.initial`, mimic joints after
-/// their leader, 0 for fixed ones. [setup]
+/// Position (rad or m) of every link's joint at the start: `joint.position.initial`; for mimic joints the position that
+/// follows from the leader's, 0 for fixed ones. [setup]
 inline std::vector<double> initial_joint_positions(const Connector& connector, const RobotView& robot) {
   std::vector<double> q(robot.links.size(), 0.0);
   for (std::size_t i = 0; i < q.size(); ++i) {
     const Link& f = robot.links[i];
     if (f.joint == JointKind::fixed) continue;
-    const Link& own = f.mimic < 0 ? f : robot.links[std::size_t(f.mimic)];  // a leader follows nobody itself
+    const Link& own = f.mimic < 0 ? f : robot.links[std::size_t(f.mimic)];  // a leader does not follow another joint
     q[i] = connector.constant(own.joint_object, keys::initial_joint_position).value_or(0.0);
     if (f.mimic >= 0) q[i] = f.mimic_offset + f.mimic_multiplier * q[i];
   }
   return q;
 }
 
-/// A joint that starts outside of its limits is the user's mistake: throws Error. [setup]
+/// Throws Error when a joint starts outside of its limits, which is the user's mistake. [setup]
 inline void check_start(const Connector& connector, ObjectId joint, const JointLimits& limits, double position) {
   if (position < limits.lower || position > limits.upper)
     throw Error("joint `" + std::string(connector.object_name(joint)) + "` starts at " + number_text(position) +
@@ -33,7 +33,7 @@ inline void check_start(const Connector& connector, ObjectId joint, const JointL
                 "; set `joint.position.initial` to a value between them");
 }
 
-/// The constant `inertial` of every link; zero where there is none. [setup]
+/// Returns the constant `inertial` of every link; zero when there is none. [setup]
 inline std::vector<Inertia> inertias_of(const Connector& connector, const RobotView& robot) {
   std::vector<Inertia> inertias;
   for (const Link& f : robot.links)

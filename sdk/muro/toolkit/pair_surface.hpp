@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the surfaces of two shapes are to each other, by the same rule in all backends.
+// Surface of a pair of shapes, by the same rule in all backends.
 #pragma once
 
 #include <algorithm>
@@ -10,21 +10,21 @@
 
 namespace muro {
 
-/// How the friction of a pair follows from those of its two shapes.
+/// The rule by which the friction of a pair follows from those of its two shapes.
 enum class FrictionRule : std::uint32_t {
-  min,      ///< as Gazebo (ODE) does
-  mean,     ///< geometric: the root of the product, as Box2D and Jolt do
-  product,  ///< as Bullet does
-  max,      ///< as MuJoCo does
+  min,      ///< as in Gazebo (ODE)
+  mean,     ///< geometric: the root of the product, as in Box2D and Jolt
+  product,  ///< as in Bullet
+  max,      ///< as in MuJoCo
 };
 
-/// Of the world; the smaller where nothing is said. [setup]
+/// Returns the friction rule of the world; `min` when it has none. [setup]
 inline FrictionRule friction_rule_of(Connector& c) {
   return static_cast<FrictionRule>(c.constant(world_object, keys::friction_rule).value_or(0));
 }
 
-/// The friction of the pair by the rule; restitution and resistances are the larger of the two. The order does not
-/// matter, to the bit.
+/// Friction of the pair by the rule; restitution and resistances are the larger of the two. The order of the shapes
+/// does not change a bit.
 inline Surface pair_surface(const Surface& a, const Surface& b, FrictionRule rule) {
   Surface s;
   switch (rule) {

@@ -10,12 +10,12 @@
 
 namespace muro {
 
-/// Lists of which each robot has one, such as those of its wheels: all in one array, in the order of robots, so that a
-/// step goes through memory from front to back.
+/// Lists of which each robot has one, such as lists of its wheels. They are all in one array, in the order of robots,
+/// so that a step goes through memory from front to back.
 template <class T>
 class PackedLists {
  public:
-  /// Adds a list; returns where it is. [setup]
+  /// Adds a list and returns its position. [setup]
   Range add(const std::vector<T>& list) {
     const auto begin = std::uint32_t(all_.size());
     all_.insert(all_.end(), list.begin(), list.end());
@@ -28,7 +28,7 @@ class PackedLists {
   std::vector<T> all_;
 };
 
-/// Elements for a range-based for loop, which notes at which of them it is.
+/// Elements for a range-based for loop that notes the present element.
 template <class T>
 class NotedSpan {
  public:
@@ -56,7 +56,7 @@ class NotedSpan {
     CallNote* note_;
   };
 
-  /// `note` may be null. `all`: of the instance; `range`: those to go through.
+  /// `note` may be null. `all`: elements of the instance; `range`: those to visit.
   NotedSpan(T* all, Range range, CallNote* note) : all_(all), range_(range), note_(note) {}
   Iterator begin() const { return {all_ + range_.begin, all_ + range_.end, range_.begin, note_}; }
   Iterator end() const { return {all_ + range_.end, all_ + range_.end, range_.end, nullptr}; }
@@ -67,9 +67,9 @@ class NotedSpan {
   CallNote* note_;
 };
 
-/// An algorithm that writes properties of each robot from those of this robot alone (or see set_reads_other_robots), so
-/// that robots may be divided among threads. `Robot` is what it keeps of one: handles and parameters. What is left to a
-/// derived class is to connect one robot, and a step that goes through `robots(range)`.
+/// An algorithm that writes properties of each robot from properties of the same robot only (or see
+/// set_reads_other_robots), so that robots may be divided among threads. `Robot` holds the data of one robot: handles
+/// and parameters. A derived class only has to connect one robot, and to make a step over `robots(range)`.
 template <class Robot>
 class PerRobotAlgorithm : public Algorithm {
  public:
@@ -92,22 +92,22 @@ class PerRobotAlgorithm : public Algorithm {
   }
 
  protected:
-  /// Keeps what holds for all robots; called before the first one is connected. [setup]
+  /// Reads parameters that are equal for all robots; called before the first one is connected. [setup]
   virtual void read_parameters(const Parameters& parameters) { static_cast<void>(parameters); }
   /// Binds every property of one robot; `item.robot` is not null. [setup]
   virtual Robot connect_robot(Connector& connector, const Item& item) = 0;
 
-  /// Steps of a robot read properties of other robots, too; to be called from connect_robot. [setup]
+  /// Declares that steps of a robot read properties of other robots too; call in connect_robot. [setup]
   void set_reads_other_robots() { scope_ = Phase::Scope::reads_all; }
 
-  /// Those of the items of `range`, for a loop; messages about a call that fails name the robot at which it was. [step]
+  /// The robots of the items of `range`, for a loop; messages about a failed call name the present robot. [step]
   NotedSpan<Robot> robots(Range range) { return {robots_.data(), range, note()}; }
   Robot& robot(std::uint32_t item) { return robots_[item]; }
 
  private:
   CallNote* note() const { return notes_ ? &notes_->of_this_thread() : nullptr; }
 
-  std::vector<Robot> robots_;  ///< one an item
+  std::vector<Robot> robots_;  ///< one for each item
   CallNotes* notes_ = nullptr;
   Phase::Scope scope_ = Phase::Scope::own_robot;
 };

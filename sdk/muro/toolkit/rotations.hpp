@@ -30,7 +30,7 @@ inline Quat rotation_about(const Vec3& axis, double angle) {
 /// The angle (rad, 0 to pi) of the rotation by the unit quaternion `q`.
 inline double angle_of(const Quat& q) { return 2 * elementary::atan2(q.vec().norm(), std::abs(q.w())); }
 
-/// The rotation by the unit quaternion `q` as a vector (axis times angle, rad, at most pi long): the inverse of
+/// Returns the rotation by the unit quaternion `q` as a vector (axis times angle, rad, at most pi long): the inverse of
 /// rotation_of.
 inline Vec3 rotation_vector_of(const Quat& q) {
   const double sine = q.vec().norm(), sign = q.w() < 0 ? -1 : 1;
@@ -42,7 +42,7 @@ inline Vec3 rotation_vector_of(const Quat& q) {
 /// while its own frame moves at the constant velocity u travels screw_integral(v) * u per unit of time.
 inline Mat3 screw_integral(const Vec3& v) {
   const double angle2 = v.squaredNorm(), angle = std::sqrt(angle2);
-  const bool small = angle < 1e-3;  // series where the quotients lose digits
+  const bool small = angle < 1e-3;  // series, since the quotients lose digits
   const auto [sine, cosine] = small ? elementary::SinCos{} : elementary::sincos(angle);
   const double a = small ? 0.5 - angle2 / 24 : (1 - cosine) / angle2;
   const double b = small ? 1.0 / 6 - angle2 / 120 : (angle - sine) / (angle2 * angle);
@@ -54,7 +54,7 @@ inline Mat3 screw_integral(const Vec3& v) {
   return mean;
 }
 
-/// Rotation angle (rad) about the z axis: the yaw of the field's roll-pitch-yaw.
+/// Rotation angle (rad) about the z axis: the yaw of roll, pitch and yaw.
 inline double yaw_of(const Quat& q) {
   return elementary::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()));
 }
@@ -68,7 +68,7 @@ inline Quat from_rpy(double roll, double pitch, double yaw) {
 /// The shortest turn that takes the direction `from` to the direction `to` (unit vectors).
 inline Quat turn_between(const Vec3& from, const Vec3& to) {
   const double w = 1 + from.x() * to.x() + from.y() * to.y() + from.z() * to.z();
-  if (w < 1e-14) {  // opposite: half a turn about any axis across
+  if (w < 1e-14) {  // opposite: half a turn about any perpendicular axis
     const bool along_x = std::abs(from.x()) > 0.7;
     const double x = along_x ? from.z() : 0, y = along_x ? 0 : from.z(), z = along_x ? -from.x() : -from.y();
     const double size = std::sqrt(x * x + y * y + z * z);

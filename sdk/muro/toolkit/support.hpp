@@ -8,8 +8,8 @@
 
 namespace muro {
 
-/// The support function: how far (m) a shape reaches from its middle along `direction` (unit, in the axes of the
-/// shape). 0 for a mesh, infinite or no number for a plane.
+/// The support function: distance (m) to which a shape extends from its middle along `direction` (unit, in the axes of
+/// the shape). 0 for a mesh, infinite or NaN for a plane.
 inline double support(const Shape& s, const Vec3& direction) {
   switch (s.kind) {
     case ShapeKind::sphere:
