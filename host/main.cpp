@@ -187,7 +187,7 @@ struct Commands {
 
   void add_identify() {
     CLI::App& command = *app.add_subcommand(
-        "identify", "Find the parameters of a servo's motor from recorded trajectories: see docs/motors.md");
+        "identify", "Find the parameters of a servo's motor from recorded trajectories: see docs/guide/motors.md");
     IdentifyOptions& o = identify_options;
     command.add_option("records", o.records, "Recordings: CSV with a header, or JSON of Rhoban/bam")->required();
     command.add_option("--model", o.model, "Friction: m1 Coulomb and viscous, m2 Stribeck, m3 by load, m4 both")

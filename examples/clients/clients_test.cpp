@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The clients, and the session of docs/remote.md, with the scenario beside them.
+// The clients, and the session of docs/guide/sil.md, with the scenario beside them.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -65,7 +65,7 @@ std::string state_hash_in(const std::string& output) {
 }
 
 TEST(RemotePage, ShowsASessionThatCanBePasted) {
-  const std::string page = text_of(root + "docs/remote.md");
+  const std::string page = text_of(root + "docs/guide/sil.md");
   std::smatch requests, replies;
   ASSERT_TRUE(std::regex_search(page, requests, std::regex("```json-rpc\n([^`]*)```")));
   const std::string rest = requests.suffix();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sends and receives the messages of the team by the radio of the robot (docs/radio.md).
+// Sends and receives the messages of the team by the radio of the robot (docs/guide/radio.md).
 #pragma once
 
 #include <cstdint>

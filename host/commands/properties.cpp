@@ -57,7 +57,7 @@ void print_markdown(const Json& groups) {
       "# Properties\n\n"
       "For everyone who records, commands or computes with properties: the standard ones, with type, unit\n"
       "and frame, and the plugins that write and read them. `muro properties --markdown` writes this page\n"
-      "from [vocabulary](../sdk/muro/vocabulary) and from the descriptions of the plugins.\n\n"
+      "from [vocabulary](../../sdk/muro/vocabulary) and from the descriptions of the plugins.\n\n"
       "Units are SI; 1 stands for a number without unit. Frames follow REP-103: x forward, y left, z up.\n"
       "`muro describe SCENARIO` shows the properties of one scenario, including those that plugins declare\n"
       "for themselves.\n");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The contents of a scenario file, before a simulation is built from them. docs/scenario.md describes the format.
+// The contents of a scenario file, before a simulation is built from them. docs/guide/scenario.md describes the format.
 #pragma once
 
 #include <map>

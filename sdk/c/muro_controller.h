@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * The interface of control code that muro loads from a shared library (algorithm `controller.library`).
- * C11 and C++20; no other header and no library of muro is needed. docs/controllers.md explains how to use it;
+ * C11 and C++20; no other header and no library of muro is needed. docs/guide/controllers.md explains how to use it;
  * examples/controllers has the same complete library in four languages. For C++ there is muro_controller.hpp.
  *
  * A library exports one function, `muro_controller`, which returns a constant table: the names of its

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The library shown in docs/controllers.md compiles and steers vehicles.
+// The library shown in docs/guide/controllers.md compiles and steers vehicles.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -13,7 +13,7 @@ namespace {
 /// the source.
 test::CommandResult run_as_shown(const std::string& language, const std::string& compiler,
                                  const std::pair<std::string, std::string>& change = {}) {
-  const std::string page = test::text_of(MURO_TEST_SOURCE_DIR "/docs/controllers.md");
+  const std::string page = test::text_of(MURO_TEST_SOURCE_DIR "/docs/guide/controllers.md");
   std::smatch code, command;
   if (!std::regex_search(page, code, std::regex("\n```" + language + "\n([^`]*)```")) ||
       !std::regex_search(page, command, std::regex("\n    (" + compiler + R"( (?:[^\n]*\\\n)*[^\n]*))")))

@@ -24,8 +24,8 @@ const std::string environment = "MURO_PLUGIN_PATH=" MURO_TEST_PLUGIN_DIR " ";
 /// Returns the pages in Markdown, relative to the root.
 std::vector<std::string> pages() {
   std::vector<std::string> all = {"README.md", "CONTRIBUTING.md", "sdk/README.md"};
-  for (const fs::directory_entry& e : fs::directory_iterator(root + "docs"))
-    if (e.path().extension() == ".md") all.push_back("docs/" + e.path().filename().string());
+  for (const fs::directory_entry& e : fs::recursive_directory_iterator(root + "docs"))
+    if (e.path().extension() == ".md") all.push_back(fs::relative(e.path(), root).string());
   for (const fs::directory_entry& e : fs::directory_iterator(root + "examples"))
     if (fs::exists(e.path() / "README.md")) all.push_back("examples/" + e.path().filename().string() + "/README.md");
   for (const fs::directory_entry& e : fs::recursive_directory_iterator(root + "plugins"))
@@ -108,8 +108,8 @@ INSTANTIATE_TEST_SUITE_P(Pages, Commands, ::testing::Values("README.md"), name_o
 INSTANTIATE_TEST_SUITE_P(SlowPages, Commands, ::testing::ValuesIn(pages_with_commands()), name_of);
 
 TEST(Documents, GeneratedPagesAreWhatTheProgramPrints) {
-  for (const auto& [page, command] : {std::pair("docs/plugins.md", "plugins list --markdown"),
-                                      std::pair("docs/properties.md", "properties --markdown")}) {
+  for (const auto& [page, command] : {std::pair("docs/reference/plugins.md", "plugins list --markdown"),
+                                      std::pair("docs/reference/properties.md", "properties --markdown")}) {
     const auto printed = run_command(environment + MURO_PROGRAM + " " + command);
     EXPECT_EQ(printed.exit_code, 0);
     EXPECT_EQ(text_of(root + page), printed.output) << "write it again: build/bin/muro " << command << " >" << page;
@@ -132,7 +132,7 @@ TEST(Documents, PropertiesAreThoseOfTheVocabulary) {
 }
 
 TEST(Documents, TheGlossaryIsSortedAndHasEachTermOnce) {
-  std::istringstream text(text_of(root + "docs/glossary.md"));
+  std::istringstream text(text_of(root + "docs/reference/glossary.md"));
   std::string before;
   int terms = 0;
   for (std::string line; std::getline(text, line);) {

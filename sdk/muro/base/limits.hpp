@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Ranges of values that can be simulated. Hosts check every value from a scenario, a model or set-up code against them.
-// Readers of models may check earlier, while they know the line of a file. docs/scenario.md lists the ranges with their
+// Readers of models may check earlier, while they know the line of a file. docs/guide/scenario.md lists the ranges with their
 // reasons.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prints docs/known-answers.md.
+// Prints docs/reference/known-answers.md.
 #include <cstdio>
 
 #include "tests/conformance/known_answers/answer.hpp"
@@ -12,7 +12,7 @@ constexpr const char* head =
     "For those who want to know how far errors of sensors, servos and radios are what closed forms, data\n"
     "sheets and measurements say, and whether a bug of their simulator is here, too. Made by\n"
     "`build/bin/known_answers_table`, which asks\n"
-    "[tests/conformance/known_answers](../tests/conformance/known_answers); each number is the error that\n"
+    "[tests/conformance/known_answers](../../tests/conformance/known_answers); each number is the error that\n"
     "it found, in the unit beside it, and the test fails where it is above the tolerance. Seeds are\n"
     "fixed. What sensors read at which motion is in [sensor-levels.md](sensor-levels.md).\n\n";
 
@@ -24,18 +24,18 @@ constexpr const char* elsewhere =
     "| pendulums, held arms, feet and centres of pressure, bumpers | [sensor-levels.md](sensor-levels.md) |\n"
     "| steps of a 12-bit encoder, odometry by a wrong radius and track | [sensor-levels.md](sensor-levels.md) |\n"
     "| flicker noise, the peak of a Gauss-Markov bias, second order of the low-pass, order of the links | "
-    "[plugins/sensor/error](../plugins/sensor/error/README.md) |\n"
+    "[plugins/sensor/error](../../plugins/sensor/error/README.md) |\n"
     "| noise of orientations, poses, depth and neighbours, latitude and longitude with errors | "
-    "[plugins/sensor/error](../plugins/sensor/error/README.md) |\n"
+    "[plugins/sensor/error](../../plugins/sensor/error/README.md) |\n"
     "| noise of odometry by way and turn, at 10 and at 100 Hz | "
-    "[plugins/sensor/odometry](../plugins/sensor/odometry/README.md) |\n"
+    "[plugins/sensor/odometry](../../plugins/sensor/odometry/README.md) |\n"
     "| servo steps and sticking at each engine, models M2 to M4 | "
-    "[plugins/motor/servo](../plugins/motor/servo/README.md) |\n"
-    "| motors identified from twelve real records, and from records of their own | [motors.md](motors.md) |\n"
+    "[plugins/motor/servo](../../plugins/motor/servo/README.md) |\n"
+    "| motors identified from twelve real records, and from records of their own | [motors.md](../guide/motors.md) |\n"
     "| bit errors of IEEE 802.15.4, a shared medium, hidden senders | "
-    "[plugins/radio/log_distance](../plugins/radio/log_distance/README.md) |\n"
+    "[plugins/radio/log_distance](../../plugins/radio/log_distance/README.md) |\n"
     "| steps, velocities and turns of compass walkers, on inclined planes too | "
-    "[plugins/motion/biped](../plugins/motion/biped/README.md) |\n\n"
+    "[plugins/motion/biped](../../plugins/motion/biped/README.md) |\n\n"
     "Not held: the linear inverted pendulum and its preview gains, which belong to control code.\n";
 
 void print() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prints docs/sensor-levels.md: every case of the suite with its known answer, by motion.
+// Prints docs/reference/sensor-levels.md: every case of the suite with its known answer, by motion.
 #include <cstdio>
 
 #include "tests/conformance/sensor/case.hpp"
@@ -26,7 +26,7 @@ void print() {
   std::printf(
       "# Sensors of a robot's own state, by motion\n\n"
       "For those who choose a motion for what their sensors need. Made by `build/bin/sensor_table`, which\n"
-      "asks [tests/conformance/sensor](../tests/conformance/sensor); each number is the error that it\n"
+      "asks [tests/conformance/sensor](../../tests/conformance/sensor); each number is the error that it\n"
       "found, in the unit of the reading.\n\n"
       "- **exact**: from the state of the motion itself, up to rounding and to what the motion makes of it.\n"
       "- **step**: an acceleration, from the change of velocity in the last step (1 ms here).\n"
