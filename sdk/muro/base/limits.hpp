@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ranges of values that can be simulated. Hosts check every value from a scenario, a model or set-up code against them.
-// Readers of models may check earlier, while they know the line of a file. docs/guide/scenario.md lists the ranges with their
-// reasons.
+// Readers of models may check earlier, while they know the line of a file. docs/guide/scenario.md lists the ranges with
+// their reasons.
 #pragma once
 
 #include <cmath>
