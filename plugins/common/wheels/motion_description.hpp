@@ -2,16 +2,10 @@
 // Properties that motions and drives of wheeled vehicles name in their descriptions.
 #pragma once
 
-#include "muro/toolkit/accelerations.hpp"
+#include "muro/description.hpp"
 
 namespace muro::wheels {
 
-inline constexpr PropertyUse motion_writes[] = {{"pose", "of the base"},
-                                                {"twist", "of the base"},
-                                                {"joint.position", "of every joint"},
-                                                {"joint.velocity", "of every joint"},
-                                                writes_acceleration,
-                                                writes_joint_acceleration};
 inline constexpr PropertyUse reads_initial_pose{"pose.initial", "of the base"};
 inline constexpr PropertyUse reads_initial_twist{
     "twist.initial", "of the base; what wheels can follow of it is their speed at the start"};

@@ -7,6 +7,8 @@
 #include "plugins/common/wheels/non_wheel_joints.hpp"
 #include "plugins/common/wheels/parameters.hpp"
 #include "plugins/common/wheels/terrain_travel.hpp"
+#include "plugins/motion/common/motion/description.hpp"
+#include "plugins/motion/common/motion/motion.hpp"
 #include "steered_vehicle.hpp"
 
 namespace {
@@ -57,24 +59,8 @@ struct AckermannRobot {
   ContactStop stop;
 };
 
-class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
+class Ackermann final : public Motion<PerRobotAlgorithm<AckermannRobot>> {
  public:
-  void connect_by_name(Connector& c) override {
-    for (std::uint32_t i = 0; i < c.items().size(); ++i) accelerations_.connect_by_name(c, i, BaseMotion::kinematic);
-  }
-
-  void step(const Step& step, Range range) override {
-    accelerations_.begin_step(range);
-    for (const AckermannRobot& r : robots(range)) {
-      const std::span<VehicleWheel> wheels = wheels_[r.wheels];
-      const std::span<SteeringJoint> steering = steering_[r.steering];
-      begin_step(r, wheels, steering, step.dt);
-      move(r, wheels, steering, step.dt);
-      other_joints_.move(r.other_joints, step.dt);
-    }
-    accelerations_.end_step(range, step.dt);
-  }
-
   /// The wheels turn as fits the base's velocity best; the steering goes on from where it stands.
   void on_handover(std::uint32_t item) override {
     const AckermannRobot& r = robot(item);
@@ -88,6 +74,16 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
   }
 
  private:
+  void move(const Step& step, Range range) override {
+    for (const AckermannRobot& r : robots(range)) {
+      const std::span<VehicleWheel> wheels = wheels_[r.wheels];
+      const std::span<SteeringJoint> steering = steering_[r.steering];
+      begin_step(r, wheels, steering, step.dt);
+      move_base(r, wheels, steering, step.dt);
+      other_joints_.move(r.other_joints, step.dt);
+    }
+  }
+
   void read_parameters(const Parameters& p) override {
     max_acceleration_ = p.real(max_wheel_acceleration.name);
     max_steering_rate_ = p.real("max_steering_rate");
@@ -194,7 +190,8 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
     return speed;
   }
 
-  void move(const AckermannRobot& r, std::span<VehicleWheel> wheels, std::span<SteeringJoint> steering, double dt) {
+  void move_base(const AckermannRobot& r, std::span<VehicleWheel> wheels, std::span<SteeringJoint> steering,
+                 double dt) {
     const Pose before = *r.pose;
     const double longest = terrain_.follows() ? terrain_.longest_interval(fastest_along(wheels), dt) : dt;
     const PlanarTwist velocity =
@@ -218,7 +215,6 @@ class Ackermann final : public PerRobotAlgorithm<AckermannRobot> {
     }
   }
 
-  Accelerations accelerations_;
   double max_acceleration_ = unlimited;
   double max_steering_rate_ = unlimited;
   TerrainTravel terrain_;

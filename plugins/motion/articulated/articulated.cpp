@@ -6,11 +6,9 @@
 #include <memory>
 
 #include "description.hpp"
-#include "muro/toolkit/accelerations.hpp"
-#include "plugins/common/mesh/hull_vertices.hpp"
 #include "plugins/common/text/quote.hpp"
+#include "plugins/motion/common/motion/watched_motion.hpp"
 #include "plugins/motion/common/multibody/kinematic_robot.hpp"
-#include "plugins/motion/common/watch/robot_watch.hpp"
 #include "robot.hpp"
 
 namespace {
@@ -38,7 +36,7 @@ class WorkMemory {
   std::size_t size_ = 0;
 };
 
-class Articulated final : public Algorithm {
+class Articulated final : public WatchedMotion {
  public:
   void connect(Connector& c) override {
     const Parameters& p = c.parameters();
@@ -47,22 +45,38 @@ class Articulated final : public Algorithm {
     correcting_speed_ = p.real("correcting_speed");
     runge_kutta_ = p.text("integrator") == "rk4";
     bodies_.connect(c);
-    for (const Item& item : c.items()) connect_robot(c, item);
+    for (std::uint32_t i = 0; i < c.items().size(); ++i) connect_robot(c, i);
     report(c);
-    surroundings_.connect(c);
   }
 
-  void connect_by_name(Connector& c) override {
+  void start() override {
+    for (std::uint32_t i = 0; i < served_.size(); ++i) {
+      if (!served_[i].robot) continue;
+      served_[i].robot->start();
+      begin_watch_of(i);
+    }
+  }
+  void restored() override { start(); }
+  void on_handover(std::uint32_t item) override {
+    const Served& s = served_[item];
+    if (!s.robot) return s.by_targets->take_over();
+    s.robot->take_over();
+    begin_watch_of(item);
+  }
+
+  std::span<const Phase> phases() const override {
+    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::reads_all},
+                                       {Phase::IndexSpace::items, Phase::Scope::own_robot}};
+    return phases;
+  }
+
+ private:
+  void bind_robots_by_name(Connector& c) override {
     bodies_.connect_by_name(c);
     for (std::uint32_t i = 0; i < served_.size(); ++i) {
-      const RobotView& view = *c.items()[i].robot;
       Robot* const robot = served_[i].robot;
-      const bool is_free = robot && !robot->model().fixed_base;
-      accelerations_.connect_by_name(c, i, is_free ? BaseMotion::by_forces : BaseMotion::kinematic,
-                                     is_free ? robot->model().bodies.front().inertia : Inertia{}, robot != nullptr);
       if (!robot) continue;
-      served_[i].watch->connect_contacts(c);
-      robot->connect_by_name(c, view, c.parameters());
+      robot->connect_by_name(c, *c.items()[i].robot, c.parameters());
       served_[i].model = number_of(robot->kernel_model(), models_);
       served_[i].masses = number_of(robot->masses(), masses_);
     }
@@ -74,36 +88,26 @@ class Articulated final : public Algorithm {
     }
   }
 
-  void start() override {
-    for (const Served& s : served_) {
-      if (!s.robot) continue;
-      s.robot->start();
-      begin_watch(s);
-    }
-  }
-  void restored() override { start(); }
-  void on_handover(std::uint32_t item) override {
-    const Served& s = served_[item];
-    if (!s.robot) return s.by_targets->take_over();
-    s.robot->take_over();
-    begin_watch(s);
+  MovedBase moved_base(std::uint32_t i) const override {
+    const Robot* const robot = served_[i].robot;
+    if (!robot || robot->model().fixed_base) return {.keeps_applied = robot != nullptr};
+    return {BaseMotion::by_forces, robot->model().bodies.front().inertia, true};
   }
 
-  std::span<const Phase> phases() const override {
-    static constexpr Phase phases[] = {{Phase::IndexSpace::items, Phase::Scope::reads_all},
-                                       {Phase::IndexSpace::items, Phase::Scope::own_robot}};
-    return phases;
+  std::pair<Pose, Twist> state_of(std::uint32_t i) const override {
+    return {served_[i].robot->pose(), served_[i].robot->twist()};
   }
 
-  /// Contacts first, since they look at robots that others move; then neighbours of one model, eight at a time.
-  void step(const Step& step, Range range) override {
-    if (step.phase == 0) {
-      for (std::uint32_t i = range.begin; i < range.end; ++i)
-        if (served_[i].robot) served_[i].robot->look_up_contacts(bodies_);
-      return;
-    }
-    if (step.index % watch::RobotWatch::interval == 0) look_at(step, range);
-    accelerations_.begin_step(range);
+  /// Looks up contacts in a phase of its own, since they are with robots that others move.
+  bool prepare(const Step& step, Range range) override {
+    if (step.phase != 0) return WatchedMotion::prepare(step, range);
+    for (std::uint32_t i = range.begin; i < range.end; ++i)
+      if (served_[i].robot) served_[i].robot->look_up_contacts(bodies_);
+    return false;
+  }
+
+  /// Moves neighbours of one model eight at a time.
+  void move(const Step& step, Range range) override {
     for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
       end = i + 1;
       if (!served_[i].robot) {
@@ -112,12 +116,10 @@ class Articulated final : public Algorithm {
       }
       while (end < range.end && end < i + lane_width && served_[end].robot && served_[end].model == served_[i].model)
         ++end;
-      move(i, end, step);
+      move_batch(i, end, step);
     }
-    accelerations_.end_step(range, step.dt);
   }
 
- private:
   static constexpr std::uint32_t lane_width = 8;
   static constexpr double hard_way = 1e-3;  ///< m: what comes farther in a step is stopped at once
 
@@ -125,11 +127,11 @@ class Articulated final : public Algorithm {
   struct Served {
     Robot* robot = nullptr;
     multibody::KinematicRobot* by_targets = nullptr;
-    watch::RobotWatch* watch = nullptr;
     std::uint32_t model = 0, masses = 0;  ///< in models_, masses_
   };
 
-  void connect_robot(Connector& c, const Item& item) {
+  void connect_robot(Connector& c, std::uint32_t i) {
+    const Item& item = c.items()[i];
     const RobotView& view = *item.robot;
     const Parameters& p = c.parameters();
     if (multibody::KinematicRobot::is_one(c, view, p)) {
@@ -137,12 +139,12 @@ class Articulated final : public Algorithm {
       return;
     }
     Robot& robot = robots_.emplace_back(c, view, p, item.level);
-    watches_.emplace_back(c, view, robot.velocities());
-    served_.push_back({.robot = &robot, .watch = &watches_.back()});
+    watch_robot(c, i, robot.velocities());
+    served_.push_back({.robot = &robot});
   }
 
-  static void begin_watch(const Served& served) {
-    served.robot->each_external([&](const SumIn<Wrench>& external) { served.watch->begin(&external); });
+  void begin_watch_of(std::uint32_t i) {
+    served_[i].robot->each_external([&](const SumIn<Wrench>& external) { begin_watch(i, &external); });
   }
 
   /// Among those that are known; of a new one a copy is made.
@@ -156,15 +158,7 @@ class Articulated final : public Algorithm {
 
   void report(Connector& c) const;
 
-  /// Throws Error when the watch over one of the robots ends the run.
-  void look_at(const Step& step, Range range) {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      const Served& s = served_[i];
-      if (s.robot) s.watch->look(step, s.robot->pose(), s.robot->twist(), surroundings_);
-    }
-  }
-
-  void move(std::uint32_t begin, std::uint32_t end, const Step& step) {
+  void move_batch(std::uint32_t begin, std::uint32_t end, const Step& step) {
     thread_local WorkMemory memory;
     RobotState states[lane_width];
     std::size_t contacts = 0;
@@ -194,7 +188,6 @@ class Articulated final : public Algorithm {
     }
   }
 
-  Accelerations accelerations_{mesh::hull_vertices};
   Vec3 gravity_ = Vec3::Zero();
   double omega_ = 0, correcting_speed_ = 0;
   bool runge_kutta_ = false;
@@ -206,9 +199,7 @@ class Articulated final : public Algorithm {
   std::vector<std::vector<Mass>> masses_;
   std::deque<Robot> robots_;
   std::deque<multibody::KinematicRobot> kinematic_robots_;
-  std::deque<watch::RobotWatch> watches_;
   std::vector<Served> served_;  ///< one an item
-  watch::Surroundings surroundings_;
 };
 
 /// What the user should know of the robots.

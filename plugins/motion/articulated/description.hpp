@@ -3,7 +3,6 @@
 #pragma once
 
 #include "muro/plugin.hpp"
-#include "muro/toolkit/accelerations.hpp"
 #include "plugins/motion/common/multibody/engine_parameters.hpp"
 
 namespace muro::articulated {
@@ -11,19 +10,11 @@ namespace muro::articulated {
 inline constexpr std::string_view joint_modes[] = {"auto", "velocity", "position", "acceleration", "effort", "passive"};
 inline constexpr std::string_view base_modes[] = {"free", "fixed"};
 inline constexpr std::string_view integrators[] = {"semi_implicit", "rk4"};
-inline constexpr Parameter parameters[] = {
+inline constexpr Parameter own_parameters[] = {
     text("joints", "auto",
          "what joints follow that no list below names; auto: what an algorithm writes, position or velocity; a joint "
          "that none commands turns freely, beside others that are commanded")
         .one_of(joint_modes),
-    velocity_joints,
-    position_joints,
-    effort_joints,
-    passive_joints,
-    natural_frequency,
-    drive_stiffness,
-    drive_damping,
-    interpolate,
     text("base", "free", "whether the base is fixed to the world").one_of(base_modes),
     text("integrator", "semi_implicit",
          "semi-implicit Euler, or Runge and Kutta of order 4 for what moves smoothly within a step")
@@ -31,49 +22,30 @@ inline constexpr Parameter parameters[] = {
     real("frequency", "Hz", 50, "stiffness of contacts: that of the robot bobbing on one of them").between(1, 1e4),
     real("correcting_speed", "m/s", 1, "bodies that are put into each other are parted no faster").between(0, 1e9),
     multibody::self_collision,
-    watch::watch,
-    watch::watch_speed,
-    watch::watch_depth,
 };
-inline constexpr PropertyUse reads[] = {
+inline constexpr auto parameters = joined(own_parameters, drive_parameters, watch_parameters);
+inline constexpr PropertyUse own_reads[] = {
     {"wrench.external", "of the base and every body with collision shapes"},
     {"contacts", "of the robot: those with scenery, with robots that no force moves, and among its links"},
-    {"gravity", "on the world object; 0 0 -9.81 when absent"},
-    {"inertial", "of every body"},
-    {"joint.velocity.target", "of joints in mode velocity, and in mode position where something writes it"},
-    {"joint.position.target", "of joints in mode position"},
-    {"joint.acceleration.target", "of joints in mode acceleration"},
-    {"joint.effort.target", "of joints in mode effort"},
-    {"joint.drive.friction", "of joints in mode effort, where something writes it"},
-    {"joint.drive.armature", "of joints in mode effort, where something writes it"},
     {"pose", "of bodies of other robots; with `self_collision` of its own"},
     {"twist", "of bodies of other robots; with `self_collision` of its own"},
     {"contact.world", "of other robots"},
-    {"pose.initial", "of the base"},
-    {"twist.initial", "of the base"},
-    {"joint.position.initial", "of every joint"},
     {"contact.carried_mass", "on the base: of all robots that carry each other"},
-    {"contact.impact", "on the base of a robot that is one body: where impacts with robots were within the last step"},
-    {"contact.impact.time", "on the same: when they were"},
 };
-inline constexpr PropertyUse writes[] = {
-    {"pose", "of the base"},
-    {"twist", "of the base"},
-    {"joint.position", "of every joint"},
-    {"joint.velocity", "of every joint"},
+inline constexpr auto reads =
+    joined(own_reads, reads_masses, reads_drive_targets, reads_acceleration_targets, reads_start, reads_impacts);
+inline constexpr PropertyUse own_writes[] = {
     {"joint.effort", "of every joint: what its drive applies"},
     {"contact.kept", "of the base: what contacts keep from step to step"},
     {"contact.self.kept", "of the base, with `self_collision`: what contacts among links keep from step to step"},
     {"self_collision", "of the base, with that parameter: that `contacts` is to have those among its links"},
-    writes_acceleration,
-    writes_joint_acceleration,
     {"wrench.contact", "of every body with collision shapes"},
     {keys::applied_wrench.name, "of every body with collision shapes, where somebody reads it"},
     {keys::contact_wrenches_of_motion.name, "of the base: what each contact did, where somebody reads it"},
     {"contact.world", "that the motion answers for contacts of the robot"},
     {"twist.lag", "0: pose and twist are those of one instant"},
-    {"contact.impact.step", "of a base that impacts push: length of a step"},
 };
+inline constexpr auto writes = joined(motion_writes, own_writes, writes_impact_step);
 inline constexpr Description description{
     .id = "motion.articulated",
     .kind = Kind::motion,

@@ -52,9 +52,7 @@ Robot::Robot(Connector& c, const RobotView& view, const Parameters& p, std::uint
   rigid_.fixed_base = p.text("base") == "fixed";
   model_ = model_of_bodies(rigid_);
   masses_ = masses_of_bodies(rigid_);
-  own_world_ = number_of_world(fnv1a(view.name, fnv1a(id)));
-  contact_world_ = c.variable(view.base(), keys::contact_world, own_world_);
-  twist_lag_ = c.variable(view.base(), keys::twist_lag, 0.0);
+  contact_role_ = ContactRole(c, view.base(), number_of_world(fnv1a(view.name, fnv1a(id))));
   carried_mass_ = c.input(view.base(), keys::carried_mass, 0.0);
   pose_ = c.variable(view.base(), keys::pose, c.constant(view.base(), keys::initial_pose).value_or(Pose{}));
   const Twist initial_twist = c.constant(view.base(), keys::initial_twist).value_or(Twist{});
@@ -237,8 +235,7 @@ void Robot::start() {
 }
 
 void Robot::take_over() {
-  *contact_world_ = own_world_;
-  *twist_lag_ = 0;
+  contact_role_.take_over();
   contacts_.take_over();
   self_contacts_.take_over();
   std::fill(accelerations_.begin(), accelerations_.end(), 0.0);

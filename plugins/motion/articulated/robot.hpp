@@ -8,6 +8,7 @@
 
 #include "model.hpp"
 #include "plugins/common/contact_geometry/impact_input.hpp"
+#include "plugins/motion/common/motion/contact_role.hpp"
 #include "plugins/motion/common/position_drive/drive_losses.hpp"
 #include "plugins/motion/common/position_drive/position_target.hpp"
 #include "robot_contacts.hpp"
@@ -107,10 +108,8 @@ class Robot {
   RobotState state_;
   Out<Pose> pose_;
   Out<Twist> twist_;
-  Out<std::uint64_t> contact_world_;
-  Out<double> twist_lag_;
+  ContactRole contact_role_;
   In<double> carried_mass_;
-  std::uint64_t own_world_ = 0;
   std::vector<JointHandles> joints_;                                       ///< one per body
   std::vector<const double*> velocities_;                                  ///< one per link
   std::vector<Out<double>> positions_out_, velocities_out_, efforts_out_;  ///< one per body

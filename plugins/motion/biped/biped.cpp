@@ -7,10 +7,11 @@
 #include "keys.hpp"
 #include "link_stop.hpp"
 #include "muro/plugin.hpp"
-#include "muro/toolkit/accelerations.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/motion/common/kinematic_joints/kinematic_joints.hpp"
+#include "plugins/motion/common/motion/description.hpp"
+#include "plugins/motion/common/motion/motion.hpp"
 #include "stance.hpp"
 
 namespace {
@@ -46,18 +47,13 @@ constexpr PropertyUse reads[] = {{"pose.initial", "of the base; it is put on its
                                  {"joint.position.target", "of every joint that follows no other", "joints=position"},
                                  {"joint.velocity.target", "of every joint that follows no other", "joints=velocity"},
                                  on_contact_reads};
-constexpr PropertyUse writes[] = {{"pose", "of the base"},
-                                  {"twist", "of the base"},
-                                  {"joint.position", "of every joint"},
-                                  {"joint.velocity", "of every joint"},
-                                  {"foot.contact", "of the links of the feet"},
-                                  {"stance.foot", "on the base"},
-                                  {"stance.pose", "on the base"},
-                                  {"stance.is_flush", "on the base"},
-                                  {"stance.footholds", "on the base"},
-                                  {"stance.base_pose", "on the base"},
-                                  writes_acceleration,
-                                  writes_joint_acceleration};
+constexpr PropertyUse own_writes[] = {{"foot.contact", "of the links of the feet"},
+                                      {"stance.foot", "on the base"},
+                                      {"stance.pose", "on the base"},
+                                      {"stance.is_flush", "on the base"},
+                                      {"stance.footholds", "on the base"},
+                                      {"stance.base_pose", "on the base"}};
+constexpr auto writes = joined(motion_writes, own_writes);
 constexpr Description description{
     .id = "motion.biped",
     .kind = Kind::motion,
@@ -96,27 +92,8 @@ bool is_same(const Pose& a, const Pose& b) {
          std::memcmp(a.orientation.coeffs().data(), b.orientation.coeffs().data(), sizeof(double) * 4) == 0;
 }
 
-class Biped final : public PerRobotAlgorithm<BipedRobot> {
+class Biped final : public Motion<PerRobotAlgorithm<BipedRobot>> {
  public:
-  void connect_by_name(Connector& c) override {
-    for (std::uint32_t i = 0; i < c.items().size(); ++i) {
-      BipedRobot& r = robot(i);
-      accelerations_.connect_by_name(c, i, BaseMotion::kinematic);
-      const ObjectId base = c.items()[i].robot->base();
-      if (c.is_used(base, keys::acceleration, usage::read) || c.is_used(base, keys::acceleration, usage::input))
-        r.acceleration = c.write(base, keys::acceleration);
-    }
-  }
-
-  void step(const Step& step, Range range) override {
-    accelerations_.begin_step(range);
-    for (BipedRobot& r : robots(range)) move(r, step.dt);
-    if (accelerations_.empty()) return;
-    accelerations_.end_step(range, step.dt);
-    for (const BipedRobot& r : robots(range))
-      if (r.acceleration) *r.acceleration = acceleration_of(r, step.dt);
-  }
-
   /// Another motion has left the robot anywhere: it is put on its feet.
   void on_handover(std::uint32_t item) override {
     const BipedRobot& r = robot(item);
@@ -127,6 +104,23 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
   }
 
  private:
+  void bind_by_name(Connector& c) override {
+    for (std::uint32_t i = 0; i < c.items().size(); ++i) {
+      const ObjectId base = c.items()[i].robot->base();
+      if (c.is_used(base, keys::acceleration, usage::read) || c.is_used(base, keys::acceleration, usage::input))
+        robot(i).acceleration = c.write(base, keys::acceleration);
+    }
+  }
+
+  void move(const Step& step, Range range) override {
+    for (BipedRobot& r : robots(range)) walk(r, step.dt);
+  }
+
+  void refine_accelerations(const Step& step, Range range) override {
+    for (const BipedRobot& r : robots(range))
+      if (r.acceleration) *r.acceleration = acceleration_of(r, step.dt);
+  }
+
   void read_parameters(const Parameters& p) override {
     hysteresis_ = p.real("hysteresis");
     contact_height_ = p.real("contact_height");
@@ -244,7 +238,7 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
     *r.contact[1 - stance.foot] = swing_height(models_[r.model], stance, feet) <= contact_height_ ? 1 : 0;
   }
 
-  void move(BipedRobot& r, double dt) {
+  void walk(BipedRobot& r, double dt) {
     if (!is_same(*r.pose, *r.base_pose)) stand_up(r);
     take_positions(r.legs, from_);
     if (r.acceleration) {
@@ -293,7 +287,6 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
         angular};
   }
 
-  Accelerations accelerations_;
   Host* host_ = nullptr;
   std::atomic<bool> is_told_ = false;  ///< that a link other than a foot is below the plane
   GroundPlane plane_;

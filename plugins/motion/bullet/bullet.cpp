@@ -21,12 +21,12 @@ constexpr Parameter own_parameters[] = {
     real("warm_start", "1", 1, "part of the last step's impulses that the solver begins with").between(0, 1),
     multibody::scenery_meshes,
 };
-constexpr auto parameters = multibody::with_common_parameters(own_parameters);
+constexpr auto parameters = joined(multibody::common_parameters, own_parameters);
 constexpr Description bullet_description = multibody::engine_description(
     "motion.bullet", "1.0.0", "Multi-body dynamics by Bullet; robots of one world touch in it", parameters,
     feature_armature | feature_rolling_resistance | feature_spinning_resistance | feature_heightmaps);
 
-class BulletMotion final : public multibody::Motion {
+class BulletMotion final : public multibody::WorldMotion {
   const Description& description() const override { return bullet_description; }
   multibody::MinInertia min_inertia() const override {
     return {1e-6, 1e-4, [this](const Shape& s) { return bullet::box_around(s, *meshes_); }};

@@ -3,7 +3,7 @@
 // velocity of the base follows from those of the wheels. Kinematics after Siegwart, Nourbakhsh and Scaramuzza,
 // Introduction to Autonomous Mobile Robots, 2nd edition, section 3.2.
 #include "plugins/common/wheels/side_wheels.hpp"
-#include "plugins/common/wheels/wheel_motion.hpp"
+#include "plugins/motion/common/wheel_motion/wheel_motion.hpp"
 
 namespace {
 

@@ -38,12 +38,12 @@ constexpr Parameter own_parameters[] = {
     multibody::attitude,
     boolean("several_contacts", true, "cylinders, capsules and meshes touch in several points where they lie flat"),
 };
-constexpr auto parameters = multibody::with_common_parameters(own_parameters);
+constexpr auto parameters = joined(multibody::common_parameters, own_parameters);
 constexpr Description mujoco_description = multibody::engine_description(
     "motion.mujoco", "1.0.0", "Multi-body dynamics by MuJoCo; robots of one world touch in it", parameters,
     feature_armature | feature_rolling_resistance | feature_spinning_resistance | feature_heightmaps);
 
-class MujocoMotion final : public multibody::Motion {
+class MujocoMotion final : public multibody::WorldMotion {
   const Description& description() const override { return mujoco_description; }
   multibody::MinInertia min_inertia() const override { return {}; }
   bool has_own_inertias() const override { return source_.is_used(); }

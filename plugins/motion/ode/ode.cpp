@@ -35,7 +35,7 @@ constexpr Parameter own_parameters[] = {
     boolean("reactions", true,
             "whether efforts of drives and wrenches of contacts are found out; ODE is faster without"),
 };
-constexpr auto parameters = multibody::with_common_parameters(own_parameters);
+constexpr auto parameters = joined(multibody::common_parameters, own_parameters);
 constexpr Description ode_description = multibody::engine_description(
     "motion.ode", "1.0.0", "Multi-body dynamics by the Open Dynamics Engine; robots of one world touch in it",
     parameters,
@@ -87,7 +87,7 @@ std::string objection_to_quick(const Connector& c, std::uint32_t item, int itera
   return text;
 }
 
-class OdeMotion final : public multibody::Motion {
+class OdeMotion final : public multibody::WorldMotion {
   const Description& description() const override { return ode_description; }
   // Iterations part bodies badly whose masses differ by more.
   multibody::MinInertia min_inertia() const override {

@@ -3,13 +3,14 @@
 #include <string>
 
 #include "muro/plugin.hpp"
-#include "muro/toolkit/accelerations.hpp"
 #include "muro/toolkit/contact_stop.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "plugins/common/wheels/terrain.hpp"
 #include "plugins/common/wheels/wheel_finder.hpp"
 #include "plugins/motion/common/kinematic_joints/kinematic_joints.hpp"
+#include "plugins/motion/common/motion/description.hpp"
+#include "plugins/motion/common/motion/motion.hpp"
 
 namespace {
 
@@ -34,20 +35,12 @@ constexpr Parameter parameters[] = {
          "still; passive: none, control code may write `joint.position` itself")
         .one_of(joint_modes),
 };
-constexpr PropertyUse reads[] = {{"command.twist", "mode velocity"},
-                                 {"command.pose", "mode pose"},
-                                 {"pose.initial", "of the base"},
-                                 {"twist.initial", "of the base"},
-                                 {"joint.position.initial", "of every joint"},
-                                 {"joint.position.target", "of joints that follow it"},
-                                 {"joint.velocity.target", "of joints that follow it"},
-                                 on_contact_reads};
-constexpr PropertyUse writes[] = {{"pose", "of the base"},
-                                  {"twist", "of the base"},
-                                  {"joint.position", "of every joint"},
-                                  {"joint.velocity", "of every joint"},
-                                  writes_acceleration,
-                                  writes_joint_acceleration};
+constexpr PropertyUse own_reads[] = {{"command.twist", "mode velocity"},
+                                     {"command.pose", "mode pose"},
+                                     {"joint.position.target", "of joints that follow it"},
+                                     {"joint.velocity.target", "of joints that follow it"},
+                                     on_contact_reads};
+constexpr auto reads = joined(own_reads, reads_start);
 constexpr Description description{
     .id = "motion.point",
     .kind = Kind::motion,
@@ -55,7 +48,7 @@ constexpr Description description{
     .summary = "Moves the base as commanded and joints to their targets, within limits; no forces, no contact",
     .parameters = parameters,
     .reads = reads,
-    .writes = writes,
+    .writes = motion_writes,
     .capabilities = deterministic | batched | allocation_free | restorable,
     .features = feature_joints | feature_velocity_targets | feature_position_targets | feature_joint_limits |
                 feature_joint_speed_limits | feature_mimic_joints | feature_heightmaps,
@@ -103,25 +96,18 @@ struct PointRobot {
   KinematicJoints joints;
 };
 
-class Point final : public PerRobotAlgorithm<PointRobot> {
- public:
-  void connect_by_name(Connector& c) override {
-    for (std::uint32_t i = 0; i < c.items().size(); ++i) {
-      robot(i).joints.follow_what_is_written(c);
-      accelerations_.connect_by_name(c, i, BaseMotion::kinematic);
-    }
+class Point final : public Motion<PerRobotAlgorithm<PointRobot>> {
+  void bind_by_name(Connector& c) override {
+    for (std::uint32_t i = 0; i < c.items().size(); ++i) robot(i).joints.follow_what_is_written(c);
   }
 
-  void step(const Step& step, Range range) override {
-    accelerations_.begin_step(range);
+  void move(const Step& step, Range range) override {
     for (const PointRobot& r : robots(range)) {
-      move(r, step.dt);
+      move_base(r, step.dt);
       r.joints.move(step.dt);
     }
-    accelerations_.end_step(range, step.dt);
   }
 
- private:
   void read_parameters(const Parameters& p) override {
     follow_pose_ = p.text("mode") == "pose";
     max_speed_ = p.real("max_speed");
@@ -178,7 +164,7 @@ class Point final : public PerRobotAlgorithm<PointRobot> {
     v.linear.z() = ground->slope_x * v.linear.x() + ground->slope_y * v.linear.y();
   }
 
-  void move(const PointRobot& r, double dt) const {
+  void move_base(const PointRobot& r, double dt) const {
     Twist goal = commanded_velocity(r, dt);
     Twist& v = *r.twist;
     if (follows_terrain()) goal.linear.z() = v.linear.z() = 0;
@@ -205,7 +191,6 @@ class Point final : public PerRobotAlgorithm<PointRobot> {
     if (follows_terrain()) follow_terrain(height, pose, v);
   }
 
-  Accelerations accelerations_;
   ground::Terrain terrain_;
   double height_ = -1;  ///< m; below 0: terrain is nothing to it
   bool follow_pose_ = false;

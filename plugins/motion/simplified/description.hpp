@@ -3,24 +3,18 @@
 #pragma once
 
 #include "muro/plugin.hpp"
-#include "muro/toolkit/accelerations.hpp"
-#include "plugins/motion/common/position_drive/position_drive.hpp"
-#include "plugins/motion/common/watch/parameters.hpp"
+#include "plugins/motion/common/motion/forced_description.hpp"
 
 namespace muro::simplified {
 
 inline constexpr std::string_view joint_modes[] = {"auto", "velocity", "position", "acceleration", "effort", "passive"};
 inline constexpr std::string_view position_drive_kinds[] = {"pd", "ideal"};
 inline constexpr std::string_view base_modes[] = {"free", "fixed"};
-inline constexpr Parameter parameters[] = {
+inline constexpr Parameter own_parameters[] = {
     text("joints", "auto",
          "what joints follow that no list below names; auto: what an algorithm writes, position or velocity; a joint "
          "that none commands turns freely, beside others that are commanded")
         .one_of(joint_modes),
-    velocity_joints,
-    position_joints,
-    effort_joints,
-    passive_joints,
     real("max_joint_acceleration", "rad/s^2 or m/s^2", 100, "of every joint that follows a target other than an effort")
         .between(1e-6, 1e9),
     boolean("effort_limits", false,
@@ -28,48 +22,26 @@ inline constexpr Parameter parameters[] = {
     text("position_drives", "pd",
          "joints in mode position have PD drives, or meet targets whatever it takes, at the least cost")
         .one_of(position_drive_kinds),
-    natural_frequency,
-    drive_stiffness,
-    drive_damping,
-    interpolate,
     real("armature", "kg m^2 or kg", 0,
          "inertia of each drive beyond that of the model, felt by joints that forces move")
         .between(0, 1e6),
     text("base", "free", "free to move, or fixed to the world where it starts").one_of(base_modes),
-    watch::watch,
-    watch::watch_speed,
-    watch::watch_depth,
 };
-inline constexpr PropertyUse reads[] = {
+inline constexpr auto parameters = joined(own_parameters, drive_parameters, watch_parameters);
+inline constexpr PropertyUse own_reads[] = {
     {"wrench.external", "of the base; of each body with a shape, too, where forces move joints: sums"},
     {keys::contact_wrenches_of_law.name, "of the robot, where somebody reads `wrench.applied`"},
     {"contacts", "of the robot, where a contact algorithm reads them: how deep it is in scenery"},
-    {"gravity", "on the world object; 0 0 -9.81 when absent"},
-    {"inertial", "of every body"},
-    {"joint.velocity.target", "of joints in mode velocity, and in mode position where something writes it"},
-    {"joint.position.target", "of joints in mode position"},
-    {"joint.acceleration.target", "of joints in mode acceleration"},
-    {"joint.effort.target", "of joints in mode effort"},
-    {"joint.drive.friction", "of joints in mode effort, where something writes it"},
-    {"joint.drive.armature", "of joints in mode effort, where something writes it"},
-    {"pose.initial", "of the base"},
-    {"twist.initial", "of the base"},
-    {"joint.position.initial", "of every joint"},
-    {"contact.impact", "on the base: where impacts were within the last step"},
-    {"contact.impact.time", "on the base: when they were"},
 };
-inline constexpr PropertyUse writes[] = {
-    {"pose", "of the base"},
-    {"twist", "of the base"},
-    {"joint.position", "of every joint"},
-    {"joint.velocity", "of every joint"},
+inline constexpr auto reads =
+    joined(own_reads, reads_masses, reads_drive_targets, reads_acceleration_targets, reads_start, reads_impacts);
+inline constexpr PropertyUse own_writes[] = {
     {"joint.effort", "of joints with PD drives or moved by forces: what the drive applies"},
     {keys::applied_wrench.name, "of links, where somebody reads it"},
-    writes_acceleration,
-    writes_joint_acceleration,
     {"contact.world", "that the contact algorithm answers for all contacts"},
     {"twist.lag", "0: pose and twist are those of one instant"},
-    {"contact.impact.step", "of a base that impacts push: length of a step"}};
+};
+inline constexpr auto writes = joined(motion_writes, own_writes, writes_impact_step);
 inline constexpr Description description{
     .id = "motion.simplified",
     .kind = Kind::motion,

@@ -1,31 +1,24 @@
 // SPDX-License-Identifier: MIT
 // The simplified dynamics (MuRoSimF, Section 3.2): one body whose centre of mass and inertia follow the joints.
-#include <array>
 #include <bit>
-#include <deque>
 #include <functional>
-#include <optional>
 #include <string>
 
-#include "applied_wrenches.hpp"
 #include "articulation.hpp"
 #include "description.hpp"
 #include "force_driven_joints.hpp"
 #include "joint_properties.hpp"
 #include "least_inertia.hpp"
-#include "model.hpp"
 #include "move.hpp"
 #include "muro/plugin.hpp"
-#include "muro/toolkit/accelerations.hpp"
 #include "muro/toolkit/mass_properties.hpp"
 #include "plugins/common/contact_geometry/contact_responsibility.hpp"
-#include "plugins/common/contact_geometry/impact_input.hpp"
-#include "plugins/common/mesh/hull_vertices.hpp"
 #include "plugins/common/text/quote.hpp"
 #include "plugins/motion/common/kinematic_joints/moving_mass.hpp"
+#include "plugins/motion/common/motion/watched_motion.hpp"
 #include "plugins/motion/common/multibody/consistent_inertia.hpp"
 #include "plugins/motion/common/position_drive/settled_modes.hpp"
-#include "plugins/motion/common/watch/robot_watch.hpp"
+#include "robot_table.hpp"
 
 namespace {
 
@@ -33,74 +26,35 @@ using namespace muro;
 using namespace muro::simplified;
 using lane::numbers;
 
-class Simplified final : public Algorithm {
+class Simplified final : public WatchedMotion {
  public:
   void connect(Connector& c) override {
     const Parameters& p = c.parameters();
     fixed_ = p.text("base") == "fixed";
     max_acceleration_ = p.real("max_joint_acceleration");
     gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
-    const std::size_t count = c.items().size();
-    robots_.resize(count), kinds_.resize(count), impacts_.resize(count), applied_wrenches_.resize(count);
-    for (std::vector<RobotState>& layer : layers_) layer.resize(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
+    table_.resize(c.items().size());
+    for (std::uint32_t i = 0; i < table_.size(); ++i) {
       const RobotView& robot = *c.items()[i].robot;
-      modes_.push_back(drive_modes_of(c, robot, p));
-      watches_.emplace_back(c, robot, std::vector<const double*>{});
+      robots_[i].modes = drive_modes_of(c, robot, p);
       connect_robot(c, i);
-      note_without_forces(c, robot, modes_[i]);
+      note_without_forces(c, robot, robots_[i].modes);
     }
     tell_of_robots_without_forces(c, without_forces_, stand_still_);
   }
 
-  void connect_by_name(Connector& c) override {
-    for (std::uint32_t i = 0; i < robots_.size(); ++i) {
-      std::vector<DriveMode> modes = settled_modes(c, *c.items()[i].robot, c.parameters());
-      if (modes == modes_[i]) continue;
-      modes_[i] = std::move(modes);
-      connect_robot(c, i);
-    }
-    surroundings_.connect(c);
-    for (watch::RobotWatch& watch : watches_) watch.connect_contacts(c);
-    for (ForceDrivenJoints& joints : force_driven_) joints.connect_by_name(c);
-    for (std::uint32_t i = 0; i < robots_.size(); ++i)
-      accelerations_.connect_by_name(c, i, fixed_ ? BaseMotion::kinematic : BaseMotion::by_forces, robots_[i].inertia,
-                                     robots_[i].external.has_value());
-    for (std::uint32_t i = 0; i < robots_.size(); ++i) {
-      applied_wrenches_[i].connect_by_name(c, *c.items()[i].robot, external_of(i));
-      tells_applied_ = tells_applied_ || !applied_wrenches_[i].empty();
-    }
+  void start() override {
+    table_.find_contributions();
+    begin_watches();
   }
-
   void restored() override { begin_watches(); }
 
-  void start() override {
-    begin_watches();
-    other_contributions_.clear();
-    totals_.assign(robots_.size(), Wrench{});
-    for (std::size_t i = 0; i < robots_.size(); ++i) {
-      Robot& r = robots_[i];
-      RobotState& state = layers_[0][i];
-      r.first_other_contribution = std::uint32_t(other_contributions_.size());
-      kinds_[i].wrenches = 0;
-      if (r.force_driven >= 0) {
-        kinds_[i].wrenches = 1;
-        state.wrench = numbers(&totals_[i]);
-      } else if (r.external) {
-        kinds_[i].wrenches = std::uint32_t(r.external->size());
-        state.wrench = r.external->size() > 0 ? numbers(r.external->contribution(0)) : nullptr;
-        for (std::uint64_t k = 1; k < r.external->size(); ++k)
-          other_contributions_.push_back(numbers(r.external->contribution(k)));
-      }
-    }
-  }
-
   void on_handover(std::uint32_t item) override {
-    watches_[item].begin(external_of(item));
-    *robots_[item].contact_world = contact_world_of(robots_[item].external.has_value());
-    *robots_[item].twist_lag = 0;
-    if (robots_[item].force_driven >= 0) force_driven_[std::size_t(robots_[item].force_driven)].take_over();
-    if (fixed_) std::fill_n(layers_[0][item].twist, 6, 0.0);
+    const Robot& r = robots_[item];
+    begin_watch(item, r.wrenches());
+    r.contact_role.take_over();
+    if (r.force_driven >= 0) force_driven_[std::size_t(r.force_driven)].take_over();
+    if (fixed_) std::fill_n(table_.layers[0][item].twist, 6, 0.0);
   }
 
   std::span<const Phase> phases() const override {
@@ -108,20 +62,43 @@ class Simplified final : public Algorithm {
     return phases;
   }
 
-  /// Neighbours of one kind go eight at a time.
-  void step(const Step& step, Range range) override {
-    if (step.index % watch::RobotWatch::interval == 0) look_at(step, range);
-    accelerations_.begin_step(range);
-    if (tells_applied_)
-      for (std::uint32_t i = range.begin; i < range.end; ++i) applied_wrenches_[i].keep();
+ private:
+  static constexpr std::uint32_t lane_width = 8;
+
+  void bind_robots_by_name(Connector& c) override {
+    for (std::uint32_t i = 0; i < table_.size(); ++i) {
+      std::vector<DriveMode> modes = settled_modes(c, *c.items()[i].robot, c.parameters());
+      if (modes == robots_[i].modes) continue;
+      robots_[i].modes = std::move(modes);
+      connect_robot(c, i);
+    }
+    for (ForceDrivenJoints& joints : force_driven_) joints.connect_by_name(c);
+    for (std::uint32_t i = 0; i < table_.size(); ++i) {
+      robots_[i].applied.connect_by_name(c, *c.items()[i].robot, robots_[i].wrenches());
+      reports_applied_ = reports_applied_ || !robots_[i].applied.empty();
+    }
+  }
+
+  MovedBase moved_base(std::uint32_t i) const override {
+    return {fixed_ ? BaseMotion::kinematic : BaseMotion::by_forces, robots_[i].inertia,
+            robots_[i].external.has_value()};
+  }
+  std::pair<Pose, Twist> state_of(std::uint32_t i) const override { return {table_.pose(i), table_.twist(i)}; }
+
+  /// Moves neighbours of one kind eight at a time.
+  void move(const Step& step, Range range) override {
+    if (reports_applied_)
+      for (std::uint32_t i = range.begin; i < range.end; ++i) robots_[i].applied.keep();
+    const std::vector<RobotTable::Kind>& kinds = table_.kinds;
     for (std::uint32_t i = range.begin, end = i; i < range.end; i = end) {
-      while (end < range.end && end < i + lane_width && kinds_[end] == kinds_[i]) ++end;
-      const Model& model = models_[kinds_[i].model];
-      BatchParameters batch{.mass = &model.mass,
-                            .wrenches = int(kinds_[i].wrenches),
-                            .other_contributions = other_contributions_.data() + robots_[i].first_other_contribution,
-                            .gravity = {gravity_.x(), gravity_.y(), gravity_.z()},
-                            .dt = step.dt};
+      while (end < range.end && end < i + lane_width && kinds[end] == kinds[i]) ++end;
+      const Model& model = models_[kinds[i].model];
+      BatchParameters batch{
+          .mass = &model.mass,
+          .wrenches = int(kinds[i].wrenches),
+          .other_contributions = table_.other_contributions.data() + robots_[i].first_other_contribution,
+          .gravity = {gravity_.x(), gravity_.y(), gravity_.z()},
+          .dt = step.dt};
       if (model.single_kernel) {
         model.set_joints(batch, 0);
         move_rigid(batch, i, end);
@@ -130,34 +107,13 @@ class Simplified final : public Algorithm {
       }
       for (std::uint32_t k = i; k < end; ++k) take_impacts(k, step);
     }
-    accelerations_.end_step(range, step.dt);
   }
 
- private:
-  static constexpr std::uint32_t lane_width = 8;
-
-  /// What robots that are moved together have in common.
-  struct Kind {
-    std::uint32_t model = 0;     ///< in models_
-    std::uint32_t wrenches = 0;  ///< contributions to the external wrench
-    bool operator==(const Kind&) const = default;
-  };
-  struct Robot {
-    std::optional<SumIn<Wrench>> external;  ///< none: no wrench moves it
-    Out<std::uint64_t> contact_world;
-    Out<double> twist_lag;
-    std::uint32_t first_other_contribution = 0;  ///< in other_contributions_
-    std::int32_t articulation = -1;              ///< in articulations_; -1: no joint moves mass
-    std::int32_t force_driven = -1;              ///< in force_driven_; -1: no force drives a joint
-    std::string name;
-    Inertia inertia;  ///< of all its bodies at the start, in the frame of the base
-  };
-
-  /// Connects the robot whose joints have modes_, anew when it is found out that they have others.
+  /// Connects the robot, and again when its joints turn out to have other modes.
   void connect_robot(Connector& c, std::uint32_t number) {
     const Item& item = c.items()[number];
     const RobotView& robot = *item.robot;
-    const std::vector<DriveMode>& modes = modes_[number];
+    const std::vector<DriveMode>& modes = robots_[number].modes;
     std::vector<Inertia> inertias = inertias_of(c, robot);
     for (Inertia& i : inertias) i = nearest_consistent_inertia(i).value_or(i);
     const std::vector<double> start = initial_joint_positions(c, robot);
@@ -173,6 +129,7 @@ class Simplified final : public Algorithm {
 
     Robot r;
     r.name = robot.name;
+    r.modes = modes;
     r.inertia = composite_inertia(robot.links, inertias, start);
     const Pose pose = c.constant(robot.base(), keys::initial_pose).value_or(Pose{});
     const Twist twist = c.constant(robot.base(), keys::initial_twist).value_or(Twist{});
@@ -184,14 +141,14 @@ class Simplified final : public Algorithm {
                                  joints_with_position_drives(c, robot, inertias, start, forces));
     std::vector<const double*> watched;
     for (const JointProperties& j : properties) watched.push_back(j.force_driven ? j.velocity : nullptr);
-    watches_[number] = watch::RobotWatch(c, robot, watched);
+    watch_robot(c, number, watched);
     // Where another motion of the robot asks for the wrenches on links, they do not act on the base.
     const bool has_levels =
         forces && robot.links.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
     const auto any = [&](bool JointProperties::*what) {
       return forces && std::any_of(properties.begin(), properties.end(), std::mem_fn(what));
     };
-    const bool is_first = !robots_[number].contact_world;
+    const bool is_first = !robots_[number].contact_role;
     // The contact algorithm has to know from the start which robots on a fixed base it moves.
     const bool is_pushed = !fixed_ || is_first || robots_[number].external.has_value();
     const bool feels_contact = is_pushed && (has_levels || any(&JointProperties::feels_contact));
@@ -207,12 +164,12 @@ class Simplified final : public Algorithm {
                                                              feels_contact || !fixed_, feels_contact});
     }
     if (feels_contact || !fixed_) r.external = c.read_sum(robot.base(), keys::external_wrench);
-    r.contact_world = c.variable(robot.base(), keys::contact_world, contact_world_of(r.external.has_value()));
-    r.twist_lag = c.variable(robot.base(), keys::twist_lag, 0.0);
-    impacts_[number] =
+    r.contact_role = ContactRole(c, robot.base(), contact_world_of(r.external.has_value()));
+    table_.impacts[number] =
         feels_contact || fixed_ ? contact_geometry::ImpactInput{} : contact_geometry::ImpactInput(c, robot);
     const std::vector<RobotState> states = model.add_groups(robot, properties, max_acceleration_, state);
-    for (std::size_t k = 0; k < layers_.size(); ++k) layers_[k][number] = k < states.size() ? states[k] : RobotState{};
+    for (std::size_t k = 0; k < table_.layers.size(); ++k)
+      table_.layers[k][number] = k < states.size() ? states[k] : RobotState{};
     model.single_kernel = model.rigid && !model.force_driven && !fixed_ && model.groups.size() <= 1;
     if (!composite.rigid()) {
       r.articulation = std::int32_t(articulations_.size());
@@ -223,7 +180,7 @@ class Simplified final : public Algorithm {
       }
       articulations_.emplace_back(std::move(composite), std::move(positions), std::move(velocities));
     }
-    kinds_[number] = {number_of(std::move(model), models_), 0};
+    table_.kinds[number] = {number_of(std::move(model), models_), 0};
     robots_[number] = std::move(r);
   }
 
@@ -254,26 +211,12 @@ class Simplified final : public Algorithm {
           stand_still_ || (moves(robot.links[i]) && (modes[i] == DriveMode::effort || modes[i] == DriveMode::passive));
   }
 
-  const SumIn<Wrench>* external_of(std::uint32_t i) const {
-    return robots_[i].external ? &*robots_[i].external : nullptr;
-  }
   void begin_watches() {
-    for (std::uint32_t i = 0; i < watches_.size(); ++i) watches_[i].begin(external_of(i));
-  }
-  /// Throws Error when the watch over one of the robots ends the run.
-  void look_at(const Step& step, Range range) {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      const RobotState& s = layers_[0][i];
-      watches_[i].look(step, pose_of(s), twist_of(s), surroundings_);
-    }
-  }
-  static Pose pose_of(const RobotState& s) { return {Vec3(s.pose[0], s.pose[1], s.pose[2]), Quat(s.pose + 3)}; }
-  static Twist twist_of(const RobotState& s) {
-    return {Vec3(s.twist[0], s.twist[1], s.twist[2]), Vec3(s.twist[3], s.twist[4], s.twist[5])};
+    for (std::uint32_t i = 0; i < table_.size(); ++i) begin_watch(i, robots_[i].wrenches());
   }
 
   void move_rigid(const BatchParameters& batch, std::uint32_t begin, std::uint32_t end) const {
-    const unsigned broken = kernels_->move_rigid(batch, &layers_[0][begin], int(end - begin));
+    const unsigned broken = kernels_->move_rigid(batch, &table_.layers[0][begin], int(end - begin));
     if (broken != 0) fail(begin + std::uint32_t(std::countr_zero(broken)));
   }
 
@@ -288,22 +231,22 @@ class Simplified final : public Algorithm {
       for (std::uint32_t i = begin; i < end; ++i) move_force_driven_joints(i, batch.dt);
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
       model.set_joints(batch, g);
-      kernels_->move_joints(batch, &layers_[g][begin], int(end - begin));
+      kernels_->move_joints(batch, &table_.layers[g][begin], int(end - begin));
     }
     batch.joint_count = 0;
     if (fixed_) return;
     if (model.rigid) return move_rigid(batch, begin, end);
     for (std::uint32_t i = begin; i < end; ++i) {
-      const Wrench external = model.force_driven ? totals_[i] : robots_[i].external->value();
-      if (!articulation(i).move_base(batch, layers_[0][i], external)) fail(i);
+      const Wrench external = model.force_driven ? table_.totals[i] : robots_[i].external->value();
+      if (!articulation(i).move_base(batch, table_.layers[0][i], external)) fail(i);
     }
   }
 
   void take_impacts(std::uint32_t i, const Step& step) const {
-    const ImpactCorrection* const correction = impacts_[i].begin_step(step);
+    const ImpactCorrection* const correction = table_.impacts[i].begin_step(step);
     if (!correction) return;
-    const RigidMass& mass = models_[kinds_[i].model].mass;
-    const RobotState& state = layers_[0][i];
+    const RigidMass& mass = models_[table_.kinds[i].model].mass;
+    const RobotState& state = table_.layers[0][i];
     if (robots_[i].articulation >= 0)
       articulations_[std::size_t(robots_[i].articulation)].correct_path(state, mass.inverse_mass, *correction);
     else
@@ -312,38 +255,27 @@ class Simplified final : public Algorithm {
 
   void move_force_driven_joints(std::uint32_t i, double dt) {
     ForceDrivenJoints& joints = force_driven_[std::size_t(robots_[i].force_driven)];
-    const RobotState& s = layers_[0][i];
-    totals_[i] = joints.evaluate(pose_of(s), twist_of(s), gravity_, dt);
+    table_.totals[i] = joints.evaluate(table_.pose(i), table_.twist(i), gravity_, dt);
     if (!joints.move(dt)) fail(i);
   }
 
   [[noreturn]] void fail(std::uint32_t i) const {
     const Robot& r = robots_[i];
-    const Wrench external = r.force_driven >= 0 ? totals_[i] : r.external ? r.external->value() : Wrench{};
-    const RobotState& s = layers_[0][i];
-    throw Error(watch::failure_of_numbers(r.name, pose_of(s), twist_of(s), external, r.inertia.mass));
+    const Wrench external = r.force_driven >= 0 ? table_.totals[i] : r.external ? r.external->value() : Wrench{};
+    throw Error(watch::failure_of_numbers(r.name, table_.pose(i), table_.twist(i), external, r.inertia.mass));
   }
 
-  Accelerations accelerations_{mesh::hull_vertices};
   mesh::Store meshes_;  ///< of collision shapes, for the size of robots
   bool fixed_ = false;
   std::vector<std::string> without_forces_;  ///< robots whose joints no force can move
-  bool stand_still_ = false;                 ///< some of their joints
-  bool tells_applied_ = false;               ///< some of applied_wrenches_ are read
+  bool stand_still_ = false;                 ///< some of their joints are in modes that need forces
+  bool reports_applied_ = false;             ///< a sensor reads the wrenches that act on a link
   double max_acceleration_ = 0;
   Vec3 gravity_ = Vec3::Zero();
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
   std::vector<Model> models_;
-  std::vector<std::vector<DriveMode>> modes_;      ///< of the joints of each robot, one per link
-  std::vector<Kind> kinds_;                        ///< one per robot
-  std::array<std::vector<RobotState>, 3> layers_;  ///< by group of joints; one per robot. The first has the base, too
-  std::vector<Robot> robots_;                      ///< the rest of them
-  std::deque<watch::RobotWatch> watches_;          ///< likewise
-  watch::Surroundings surroundings_;
-  std::vector<contact_geometry::ImpactInput> impacts_;  ///< one per robot
-  std::vector<AppliedWrenches> applied_wrenches_;       ///< likewise
-  std::vector<const double*> other_contributions_;      ///< contributions to wrenches, all but the first of each robot
-  std::vector<Wrench> totals_;  ///< of robots with force-driven joints: what acts on them in this step
+  RobotTable table_;
+  std::vector<Robot>& robots_ = table_.robots;
   std::vector<Articulation> articulations_;
   std::vector<ForceDrivenJoints> force_driven_;
 };

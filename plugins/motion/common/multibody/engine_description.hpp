@@ -4,41 +4,27 @@
 
 #include "muro/description.hpp"
 #include "muro/features.hpp"
-#include "muro/toolkit/accelerations.hpp"
+#include "plugins/motion/common/motion/forced_description.hpp"
 
 namespace muro::multibody {
 
-inline constexpr PropertyUse reads[] = {
+inline constexpr PropertyUse own_reads[] = {
     {"wrench.external", "of the base and every body with collision shapes"},
-    {"gravity", "on the world object; 0 0 -9.81 when absent"},
-    {"inertial", "of every body"},
     {"collision.shapes", "of every body in the scene"},
-    {"joint.velocity.target", "of joints in mode velocity, and in mode position where something writes it"},
-    {"joint.position.target", "of joints in mode position"},
-    {"joint.effort.target", "of joints in mode effort"},
-    {"joint.drive.friction", "of joints in mode effort, where something writes it"},
-    {"joint.drive.armature", "of joints in mode effort, where something writes it"},
     {"pose", "of bodies of other robots"},
     {"twist", "of bodies of other robots"},
     {"contact.world", "of other robots"},
-    {"pose.initial", "of the base"},
-    {"twist.initial", "of the base"},
-    {"joint.position.initial", "of every joint"},
 };
-inline constexpr PropertyUse writes[] = {
-    {"pose", "of the base"},
-    {"twist", "of the base"},
-    {"joint.position", "of every joint"},
-    {"joint.velocity", "of every joint"},
+inline constexpr PropertyUse own_writes[] = {
     {"joint.effort", "of every joint: what its drive applies"},
-    writes_acceleration,
-    writes_joint_acceleration,
     {"wrench.contact", "of every body with collision shapes"},
     {keys::applied_wrench.name, "of every body with collision shapes, where somebody reads it"},
     {keys::contact_wrenches_of_motion.name, "of the base: what each contact did, where somebody reads it"},
     {"contact.world", "that this world answers for contacts"},
     {"twist.lag", "0.5: semi-implicit Euler"},
 };
+inline constexpr auto reads = joined(own_reads, reads_masses, reads_drive_targets, reads_start);
+inline constexpr auto writes = joined(motion_writes, own_writes);
 inline constexpr std::uint32_t capabilities = deterministic | restorable | world;
 inline constexpr Features features =
     feature_forces | feature_joints | feature_velocity_targets | feature_position_targets | feature_effort_targets |

@@ -2,10 +2,7 @@
 // Parameters that all motions by multi-body engines share.
 #pragma once
 
-#include <array>
-
-#include "plugins/motion/common/position_drive/position_drive.hpp"
-#include "plugins/motion/common/watch/parameters.hpp"
+#include "plugins/motion/common/motion/forced_description.hpp"
 
 namespace muro::multibody {
 
@@ -47,28 +44,15 @@ inline constexpr Parameter attitude =
         .one_of(attitudes);
 
 /// Those of all engines, in the order in which they are shown.
-inline constexpr Parameter common_parameters[] = {
-    world_name,     base_mode,         joint_mode,      velocity_joints,    position_joints,    effort_joints,
-    passive_joints, natural_frequency, drive_stiffness, drive_damping,      interpolate,        self_collision,
-    mimic_gain,     substeps,          watch::watch,    watch::watch_speed, watch::watch_depth,
-};
-
-/// The parameters of an engine: those of all engines, then its own.
-template <std::size_t n>
-constexpr std::array<Parameter, std::size(common_parameters) + n> with_common_parameters(const Parameter (&own)[n]) {
-  std::array<Parameter, std::size(common_parameters) + n> all{};
-  std::size_t count = 0;
-  for (const Parameter& p : common_parameters) all[count++] = p;
-  for (const Parameter& p : own) all[count++] = p;
-  return all;
-}
+inline constexpr Parameter parameters_of_robots[] = {world_name, base_mode, joint_mode, self_collision};
+inline constexpr Parameter parameters_of_worlds[] = {mimic_gain, substeps};
+inline constexpr auto common_parameters =
+    joined(parameters_of_robots, drive_parameters, watch_parameters, parameters_of_worlds);
 
 /// Whether robots of one world may differ in it.
 inline bool is_of_robot(std::string_view parameter) {
-  for (const Parameter* p : {&world_name, &base_mode, &joint_mode, &self_collision, &velocity_joints, &position_joints,
-                             &effort_joints, &passive_joints, &natural_frequency, &drive_stiffness, &drive_damping,
-                             &interpolate, &watch::watch, &watch::watch_speed, &watch::watch_depth})
-    if (p->name == parameter) return true;
+  for (const Parameter& p : joined(parameters_of_robots, drive_parameters, watch_parameters))
+    if (p.name == parameter) return true;
   return false;
 }
 

@@ -18,8 +18,7 @@ KinematicRobot::KinematicRobot(Connector& c, const RobotView& robot, const Param
     : joints_(c, robot, drive_modes_of(c, robot, p)), level_(level) {
   const ObjectId base = robot.base();
   active_level_ = c.input(base, keys::motion_level, std::uint32_t{0});
-  contact_world_ = c.variable(base, keys::contact_world, kinematic_world);
-  twist_lag_ = c.variable(base, keys::twist_lag, 0.0);
+  contact_role_ = ContactRole(c, base, kinematic_world);
   c.variable(base, keys::pose, c.constant(base, keys::initial_pose).value_or(Pose{}));
   twist_ = c.variable(base, keys::twist, Twist{});
   for (const Link& link : robot.links) {
@@ -30,8 +29,7 @@ KinematicRobot::KinematicRobot(Connector& c, const RobotView& robot, const Param
 }
 
 void KinematicRobot::take_over() const {
-  *contact_world_ = kinematic_world;
-  *twist_lag_ = 0;
+  contact_role_.take_over();
   *twist_ = Twist{};
 }
 

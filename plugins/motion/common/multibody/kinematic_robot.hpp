@@ -5,6 +5,7 @@
 
 #include "muro/algorithm.hpp"
 #include "plugins/motion/common/kinematic_joints/kinematic_joints.hpp"
+#include "plugins/motion/common/motion/contact_role.hpp"
 
 namespace muro::multibody {
 
@@ -31,8 +32,7 @@ class KinematicRobot {
   KinematicJoints joints_;
   std::uint32_t level_;
   In<std::uint32_t> active_level_;
-  Out<std::uint64_t> contact_world_;
-  Out<double> twist_lag_;
+  ContactRole contact_role_;
   Out<Twist> twist_;
   std::vector<Out<double>> efforts_;
   std::vector<Out<Wrench>> contact_wrenches_;

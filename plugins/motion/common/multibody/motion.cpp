@@ -29,7 +29,7 @@ bool equal(const Parameter& p, const Parameters& a, const Parameters& b) {
 
 }  // namespace
 
-void Motion::connect(Connector& c) {
+void WorldMotion::connect(Connector& c) {
   const Parameters& p = c.parameters();
   check_parameters(c);
   gravity_ = c.constant(world_object, keys::gravity).value_or(Vec3(0, 0, -9.81));
@@ -51,12 +51,9 @@ void Motion::connect(Connector& c) {
   report_kinematic_robots(c);
 }
 
-void Motion::connect_by_name(Connector& c) {
+void WorldMotion::bind_by_name(Connector& c) {
   for (std::uint32_t i = 0; i < c.items().size(); ++i) {
     WorldRobot* const robot = served_[i].by_world;
-    const bool is_free = robot && !robot->model().fixed_base;
-    accelerations_.connect_by_name(c, i, is_free ? BaseMotion::by_forces : BaseMotion::kinematic,
-                                   is_free ? robot->model().bodies.front().inertia : Inertia{}, robot != nullptr);
     if (!robot) continue;
     const RobotView& view = *c.items()[i].robot;
     robot->set_has_contact_law(c.is_used(view.base(), keys::contact_wrenches_of_law, usage::derived));
@@ -64,7 +61,13 @@ void Motion::connect_by_name(Connector& c) {
   }
 }
 
-void Motion::check_parameters(const Connector& c) const {
+MovedBase WorldMotion::moved_base(std::uint32_t item) const {
+  const WorldRobot* const robot = served_[item].by_world;
+  if (!robot || robot->model().fixed_base) return {.keeps_applied = robot != nullptr};
+  return {BaseMotion::by_forces, robot->model().bodies.front().inertia, true};
+}
+
+void WorldMotion::check_parameters(const Connector& c) const {
   for (std::uint32_t i = 1; i < c.items().size(); ++i)
     for (const Parameter& p : description().parameters)
       if (!is_of_robot(p.name) && !equal(p, c.parameters(), c.parameters_of(i)))
@@ -73,7 +76,7 @@ void Motion::check_parameters(const Connector& c) const {
                     " differently; set it alike, or give one of them another `world`");
 }
 
-void Motion::connect_robot(Connector& c, const Item& item, const Parameters& p) {
+void WorldMotion::connect_robot(Connector& c, const Item& item, const Parameters& p) {
   const RobotView& view = *item.robot;
   if (KinematicRobot::is_one(c, view, p)) {
     served_.push_back({nullptr, &kinematic_robots_.emplace_back(c, view, p, item.level)});
@@ -88,13 +91,13 @@ void Motion::connect_robot(Connector& c, const Item& item, const Parameters& p) 
   served_.push_back({&robot, nullptr});
 }
 
-void Motion::report_kinematic_robots(Connector& c) const {
+void WorldMotion::report_kinematic_robots(Connector& c) const {
   std::vector<const KinematicRobot*> by_targets;
   for (const Served& s : served_) by_targets.push_back(s.by_targets);
   tell_of(c, by_targets);
 }
 
-void Motion::report_regularized_links(const Connector& c) const {
+void WorldMotion::report_regularized_links(const Connector& c) const {
   std::vector<std::string_view> links;
   for (const WorldRobot& r : robots_)
     links.insert(links.end(), r.model().regularized_links.begin(), r.model().regularized_links.end());
@@ -107,7 +110,7 @@ void Motion::report_regularized_links(const Connector& c) const {
           quoted_list(links) + "; give them an `inertial` that fits");
 }
 
-void Motion::report_mimic_joints(const Connector& c) const {
+void WorldMotion::report_mimic_joints(const Connector& c) const {
   std::vector<std::string_view> joints;
   for (const Served& s : served_) {
     if (!s.by_world) continue;
@@ -124,7 +127,7 @@ void Motion::report_mimic_joints(const Connector& c) const {
                                    "the two");
 }
 
-void Motion::start() {
+void WorldMotion::start() {
   if (robots_.empty()) return;
   world_ = make_world();
   external_bodies_.add_to(*world_);
@@ -141,30 +144,25 @@ void Motion::start() {
   world_->complete();
 }
 
-void Motion::on_handover(std::uint32_t item) {
+void WorldMotion::on_handover(std::uint32_t item) {
   if (served_[item].by_world)
-    served_[item].by_world->take_over(traits_);
+    served_[item].by_world->take_over();
   else
     served_[item].by_targets->take_over();
 }
 
-void Motion::step(const Step& step, Range) {
-  const auto items = std::uint32_t(served_.size());
-  accelerations_.begin_step(Range{0, items});
+void WorldMotion::move(const Step& step, Range) {
   if (!robots_.empty()) step_world(step);
   for (const KinematicRobot& r : kinematic_robots_) r.step(step.dt);
-  if (accelerations_.empty()) return;
-  for (std::uint32_t i = 0; i < items; ++i)
-    if (moves(i)) accelerations_.end_step(i, step.dt);
 }
 
 /// Whether it is this motion that moves the robot at present.
-bool Motion::moves(std::uint32_t item) const {
+bool WorldMotion::moves(std::uint32_t item) const {
   const Served& s = served_[item];
   return s.by_world ? s.by_world->is_dynamic() : s.by_targets->is_active();
 }
 
-void Motion::step_world(const Step& step) {
+void WorldMotion::step_world(const Step& step) {
   for (WorldRobot& r : robots_) r.import();
   external_bodies_.import();
   const double dt = step.dt / substeps_;
@@ -182,7 +180,7 @@ void Motion::step_world(const Step& step) {
 }
 
 /// An engine that does not say which robot it has failed at mostly has at the one that is nearest to its limits.
-void Motion::advance(double dt) {
+void WorldMotion::advance(double dt) {
   try {
     world_->advance(dt);
   } catch (const RobotFailure& failure) {

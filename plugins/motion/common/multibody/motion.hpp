@@ -8,23 +8,23 @@
 #include "external_bodies.hpp"
 #include "kinematic_robot.hpp"
 #include "muro/description.hpp"
-#include "muro/toolkit/accelerations.hpp"
 #include "muro/toolkit/pair_surface.hpp"
 #include "plugins/common/mesh/hull_vertices.hpp"
+#include "plugins/motion/common/motion/motion.hpp"
 #include "world_robot.hpp"
 
 namespace muro::multibody {
 
-class Motion : public Algorithm {
+class WorldMotion : public Motion<Algorithm> {
  public:
   void connect(Connector& c) final;
-  void connect_by_name(Connector& c) final;
   void start() final;
   void restored() final { start(); }
   void on_handover(std::uint32_t item) final;
-  void step(const Step& step, Range range) final;
 
  protected:
+  WorldMotion() : Motion(mesh::hull_vertices) {}
+
   /// What the plugin says of itself.
   virtual const Description& description() const = 0;
   /// What the engine needs of inertias.
@@ -47,6 +47,10 @@ class Motion : public Algorithm {
   FrictionRule friction_rule() const { return friction_rule_; }
 
  private:
+  void bind_by_name(Connector& c) final;
+  MovedBase moved_base(std::uint32_t item) const final;
+  void move(const Step& step, Range range) final;
+  bool moves(std::uint32_t item) const final;
   void check_parameters(const Connector& c) const;
   void connect_robot(Connector& c, const Item& item, const Parameters& p);
   void report_regularized_links(const Connector& c) const;
@@ -54,9 +58,7 @@ class Motion : public Algorithm {
   void report_kinematic_robots(Connector& c) const;
   void step_world(const Step& step);
   void advance(double dt);
-  bool moves(std::uint32_t item) const;
 
-  Accelerations accelerations_{mesh::hull_vertices};
   Vec3 gravity_ = Vec3::Zero();
   FrictionRule friction_rule_ = FrictionRule::min;
   WorldRobot::WorldTraits traits_;

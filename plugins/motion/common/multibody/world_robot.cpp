@@ -28,8 +28,7 @@ void WorldRobot::connect(Connector& c, const RobotView& view, const Parameters& 
   watch_ = watch::Watch(c, p, reach);
   advice_ = traits.advice;
   active_level_ = c.input(view.base(), keys::motion_level, std::uint32_t{0});
-  contact_world_ = c.variable(view.base(), keys::contact_world, traits.contact_world);
-  twist_lag_ = c.variable(view.base(), keys::twist_lag, traits.twist_lag);
+  contact_role_ = ContactRole(c, view.base(), traits.contact_world, traits.twist_lag);
   pose_ = c.variable(view.base(), keys::pose, c.constant(view.base(), keys::initial_pose).value_or(Pose{}));
   const Twist initial_twist = c.constant(view.base(), keys::initial_twist).value_or(Twist{});
   twist_ = c.variable(view.base(), keys::twist, model_.fixed_base ? Twist{} : initial_twist);
@@ -147,9 +146,8 @@ void WorldRobot::begin_watch() {
     if (w.external.size() > (has_contact_law_ ? 1 : 0)) watch_.allow_pushes();
 }
 
-void WorldRobot::take_over(const WorldTraits& traits) {
-  *contact_world_ = traits.contact_world;
-  *twist_lag_ = traits.twist_lag;
+void WorldRobot::take_over() {
+  contact_role_.take_over();
   last_.invalidate();
   for (const Joint& joint : joints_) joint.position_target.take_over();
   if (model_.fixed_base) *twist_ = Twist{};
@@ -157,9 +155,9 @@ void WorldRobot::take_over(const WorldTraits& traits) {
 
 void WorldRobot::import() {
   RobotState& s = state_;
-  s.motion_type = *active_level_ == level_              ? MotionType::dynamic
-                  : is_moved_by_forces(*contact_world_) ? MotionType::disabled
-                                                        : MotionType::kinematic;
+  s.motion_type = *active_level_ == level_                            ? MotionType::dynamic
+                  : is_moved_by_forces(contact_role_.present_world()) ? MotionType::disabled
+                                                                      : MotionType::kinematic;
   s.pose = *pose_;
   s.twist = *twist_;
   for (std::size_t i = 1; i < joints_.size(); ++i) {
@@ -167,7 +165,7 @@ void WorldRobot::import() {
     s.joints[i].velocity = *joints_[i].velocity;
   }
   if (!is_dynamic()) {
-    if (last_.is_valid() && !is_in_world(*contact_world_)) clear_outputs();
+    if (last_.is_valid() && !is_in_world(contact_role_.present_world())) clear_outputs();
     last_.invalidate();
     check_input();
     return;

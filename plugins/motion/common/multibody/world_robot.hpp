@@ -4,6 +4,7 @@
 #include "joint_drive_target.hpp"
 #include "last_state.hpp"
 #include "muro/algorithm.hpp"
+#include "plugins/motion/common/motion/contact_role.hpp"
 #include "plugins/motion/common/position_drive/drive_losses.hpp"
 #include "plugins/motion/common/position_drive/moved_inertias.hpp"
 #include "plugins/motion/common/watch/watch.hpp"
@@ -42,7 +43,7 @@ class WorldRobot {
   /// The run begins or goes on from where the robot is at the next import. [setup]
   void begin_watch();
   /// The world moves the robot from now on.
-  void take_over(const WorldTraits& traits);
+  void take_over();
   /// Properties to state. Throws Error when they are not those of a body.
   void import();
   /// Sets what drives are to do in a step of the engine of `dt` (s). `gain_of_mimics`: 1/s. Throws Error for targets
@@ -99,8 +100,7 @@ class WorldRobot {
   std::string_view advice_;
   std::uint32_t level_;  ///< the motion.level at which this world moves the robot
   In<std::uint32_t> active_level_;
-  Out<std::uint64_t> contact_world_;
-  Out<double> twist_lag_;
+  ContactRole contact_role_;
   Out<Pose> pose_;
   Out<Twist> twist_;
   std::vector<Joint> joints_;                                    ///< one per body

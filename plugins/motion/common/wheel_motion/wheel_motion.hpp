@@ -2,14 +2,17 @@
 // Motion of vehicles for which the velocity of the base is linear in the speeds of their wheels.
 #pragma once
 
-#include "motion_description.hpp"
+#include "muro/plugin.hpp"
 #include "muro/toolkit/contact_stop.hpp"
 #include "muro/toolkit/per_robot.hpp"
-#include "non_wheel_joints.hpp"
-#include "parameters.hpp"
-#include "planar_motion.hpp"
-#include "terrain_travel.hpp"
-#include "velocity_ramp.hpp"
+#include "plugins/common/wheels/motion_description.hpp"
+#include "plugins/common/wheels/non_wheel_joints.hpp"
+#include "plugins/common/wheels/parameters.hpp"
+#include "plugins/common/wheels/planar_motion.hpp"
+#include "plugins/common/wheels/terrain_travel.hpp"
+#include "plugins/common/wheels/velocity_ramp.hpp"
+#include "plugins/motion/common/motion/description.hpp"
+#include "plugins/motion/common/motion/motion.hpp"
 
 namespace muro::wheels {
 
@@ -57,14 +60,17 @@ struct WheeledRobot {
 
 /// Common part of such motions. Each defines in `jacobian_of` the effect of its wheels. Their descriptions have the
 /// parameters `max_wheel_acceleration` and `on_contact`.
-class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
+class WheelMotion : public Motion<PerRobotAlgorithm<WheeledRobot>> {
  public:
-  void connect_by_name(Connector& c) override {
-    for (std::uint32_t i = 0; i < c.items().size(); ++i) accelerations_.connect_by_name(c, i, BaseMotion::kinematic);
+  /// Turns the wheels in the way that fits the base's velocity best.
+  void on_handover(std::uint32_t item) override {
+    const WheeledRobot& r = robot(item);
+    const PlanarTwist moving = in_plane(*r.pose, *r.twist);
+    for (const RampedWheel& w : wheels_[r.wheels]) *w.velocity = w.jacobian.speed_at(moving);
   }
 
-  void step(const Step& step, Range range) override {
-    accelerations_.begin_step(range);
+ protected:
+  void move(const Step& step, Range range) override {
     for (const WheeledRobot& r : robots(range)) {
       const std::span<RampedWheel> wheels = wheels_[r.wheels];
       for (RampedWheel& w : wheels)
@@ -80,17 +86,8 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
       }
       other_joints_.move(r.other_joints, step.dt);
     }
-    accelerations_.end_step(range, step.dt);
   }
 
-  /// Turns the wheels in the way that fits the base's velocity best.
-  void on_handover(std::uint32_t item) override {
-    const WheeledRobot& r = robot(item);
-    const PlanarTwist moving = in_plane(*r.pose, *r.twist);
-    for (const RampedWheel& w : wheels_[r.wheels]) *w.velocity = w.jacobian.speed_at(moving);
-  }
-
- protected:
   virtual std::vector<WheelJacobian> jacobian_of(const Connector& c, const RobotView& robot) const = 0;
 
  private:
@@ -167,7 +164,6 @@ class WheelMotion : public PerRobotAlgorithm<WheeledRobot> {
     return sum;
   }
 
-  Accelerations accelerations_;
   double max_acceleration_ = unlimited;
   TerrainTravel terrain_;
   PackedLists<RampedWheel> wheels_;
