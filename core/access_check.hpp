@@ -19,7 +19,7 @@ class Instance;
 /// number). The call must then write the same bits, and only where it may write. Otherwise it has undeclared accesses
 /// and could not run in parallel with others. The accesses that a call may make follow from the bindings of its
 /// instance and from the scope of its phase. Runs take many times longer.
-class AccessCheck final : public CallObserver {
+class AccessCheck final : public Executor::Observer {
  public:
   AccessCheck(PropertyStore& store, const std::vector<Instance*>& instances, std::vector<RobotId> robot_of_slot);
   bool call(const Task& task, const Step& step, Range range, abi::ErrorText& error) override;

@@ -56,7 +56,7 @@ std::span<const LiveCost> Inspector::costs() noexcept {
   costs_.clear();
   const double seconds_per_tick = scheduler_.seconds_per_tick();
   for (TaskId t = 0; t < scheduler_.tasks().size(); ++t) {
-    const TaskCost cost = scheduler_.cost(t);
+    const Task::Cost cost = scheduler_.cost(t);
     const Task& task = scheduler_.tasks()[t];
     costs_.push_back({task.name, cost.runs, double(cost.ticks) * seconds_per_tick, task.runs_alone});
   }

@@ -157,14 +157,14 @@ void Instance::add_indirect_reads(const std::vector<const Instance*>& by_accesso
   bound_.insert(bound_.end(), added.begin(), added.end());
 }
 
-std::vector<SlotAccess> Instance::accesses() const {
-  std::vector<SlotAccess> all;
+std::vector<Task::Access> Instance::accesses() const {
+  std::vector<Task::Access> all;
   for (const Bound& b : bound_) {
     if (world_.store().slot(b.slot).kind == Slot::Class::constant) continue;
     const bool shared = b.usage.access == Access::read || b.usage.access == Access::accumulate;
     all.push_back({b.slot, !shared});
   }
-  merge_accesses(all);
+  Task::merge(all);
   return all;
 }
 

@@ -12,11 +12,11 @@
 namespace muro {
 
 /// The rank of an algorithm within its kind. Worlds run before all other motions, since they read where those are.
-constexpr Rank rank_of(const Description& d) {
-  return d.kind == Kind::motion && (d.capabilities & Capability::world) == 0 ? Rank::second : Rank::first;
+constexpr Task::Rank rank_of(const Description& d) {
+  return d.kind == Kind::motion && (d.capabilities & Capability::world) == 0 ? Task::Rank::second : Task::Rank::first;
 }
 /// The place of an algorithm in an instant.
-constexpr int order_of(const Description& d) { return order_of(d.kind, rank_of(d)); }
+constexpr int order_of(const Description& d) { return Task::order_of(d.kind, rank_of(d)); }
 
 /// Parameters checked against a description; owns the memory to which they point.
 class ParameterSet {
@@ -75,7 +75,7 @@ class Instance final : private Connector {
   void add_indirect_reads(const std::vector<const Instance*>& by_accessor);
   /// Every property that is not a constant, once. Contributions to a sum do not exclude each other, but they exclude
   /// readers of the sum.
-  std::vector<SlotAccess> accesses() const;
+  std::vector<Task::Access> accesses() const;
   /// Adds a property that it has to read to know when to run.
   void add_read(SlotId slot) { bound_.push_back({slot, usage::read}); }
   /// Paths in its parameters that it has resolved: files that it reads.

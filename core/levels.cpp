@@ -186,7 +186,7 @@ Task Levels::task(std::span<const std::unique_ptr<Instance>> all) {
   t.instance = this;
   t.items = 1;
   t.kind = Kind::level;
-  t.rank = Rank::second;  // after the rules
+  t.rank = Task::Rank::second;  // after the rules
   t.writes = written();
   for (const SlotId slot : t.writes) t.accesses.push_back({slot, true});
   for (const Robot& r : robots_) {
@@ -202,12 +202,12 @@ Task Levels::task(std::span<const std::unique_ptr<Instance>> all) {
                          [&](const Mover& m) { return m.instance == instance.get(); });
     });
     if (!involved) continue;
-    for (SlotAccess access : instance->accesses()) {
+    for (Task::Access access : instance->accesses()) {
       access.exclusive = true;
       t.accesses.push_back(access);
     }
   }
-  merge_accesses(t.accesses);
+  Task::merge(t.accesses);
   return t;
 }
 

@@ -40,8 +40,8 @@ void Executor::set_tasks(std::size_t count) {
   timeline_.set_threads(state_.size());
 }
 
-TaskCost Executor::cost(TaskId task) const {
-  TaskCost all;
+Task::Cost Executor::cost(TaskId task) const {
+  Task::Cost all;
   for (const Thread& t : state_) {
     all.runs += t.costs[task].runs;
     all.ticks += t.costs[task].ticks;
@@ -56,7 +56,7 @@ void Executor::run(const std::vector<Task>& tasks, Plan& plan, std::span<const s
   const std::uint64_t before = ticks();
   for (const Stage& stage : plan.stages) run_stage(stage, parallel);
   if (workers_ && !always_parallel_) plan.tuner.learn(ticks() - before);
-  for (const DueTask& due : plan.due) {
+  for (const Task::Due& due : plan.due) {
     ++runs[due.task];
     ++state_.front().costs[due.task].runs;
   }
@@ -81,7 +81,7 @@ void Executor::run_chain(const Stage& stage, std::uint32_t chain, unsigned threa
   Thread& state = state_[thread];
   RunningCall& running = running_call();
   running.function.store("step", std::memory_order_relaxed);
-  for (const Call& call : stage.chain(chain)) {
+  for (const Stage::Call& call : stage.chain(chain)) {
     if (!call.is_enabled()) continue;
     const Task& task = now_.tasks[call.task];
     const std::int64_t time = now_.times[call.instant];

@@ -4,36 +4,29 @@
 #include <memory>
 #include <string>
 
-#include "core/schedule/parallelism_tuner.hpp"
-#include "core/schedule/stage.hpp"
-#include "core/schedule/timeline.hpp"
+#include "core/schedule/plan.hpp"
 #include "core/schedule/worker_pool.hpp"
+#include "core/tick_clock.hpp"
+#include "core/timeline.hpp"
 
 namespace muro {
-
-/// Observes a run whose calls are made one by one; see AccessCheck.
-class CallObserver {
- public:
-  virtual ~CallObserver() = default;
-  /// Makes the call, in its own way. False: it failed, with a text.
-  virtual bool call(const Task& task, const Step& step, Range range, abi::ErrorText& error) = 0;
-};
-
-/// How the due tasks of an instant, or of several in which the same is due, are carried out.
-struct Plan {
-  std::vector<DueTask> due;
-  std::vector<Stage> stages;
-  ParallelismTuner tuner;
-};
 
 /// Makes the calls of a plan, on one or several threads.
 class Executor {
  public:
+  /// Observes a run whose calls are made one by one; see AccessCheck.
+  class Observer {
+   public:
+    virtual ~Observer() = default;
+    /// Makes the call, in its own way. False: it failed, with a text.
+    virtual bool call(const Task& task, const Step& step, Range range, abi::ErrorText& error) = 0;
+  };
+
   /// Sets the number of threads; 1: the calling thread alone. Returns why there are fewer, or "". [between runs]
   std::string set_threads(unsigned threads);
   unsigned threads() const { return threads_; }
   /// Takes the place of making calls; null: none. Calls are then made on one thread. [before the first run]
-  void set_observer(std::unique_ptr<CallObserver> observer) { observer_ = std::move(observer); }
+  void set_observer(std::unique_ptr<Observer> observer) { observer_ = std::move(observer); }
   bool is_observed() const { return observer_ != nullptr; }
   /// Whether several threads are used wherever there are several call chains; else only where that is found to be
   /// faster.
@@ -48,7 +41,7 @@ class Executor {
   void run(const std::vector<Task>& tasks, Plan& plan, std::span<const std::int64_t> times, std::uint64_t seed,
            std::vector<std::uint64_t>& runs);
 
-  TaskCost cost(TaskId task) const;
+  Task::Cost cost(TaskId task) const;
   double seconds_per_tick() const { return clock_.seconds_per_tick(); }
 
  private:
@@ -57,7 +50,7 @@ class Executor {
     std::string text;
   };
   struct alignas(cache_distance) Thread {
-    std::vector<TaskCost> costs;
+    std::vector<Task::Cost> costs;
     Failure failure;
   };
   /// What is being carried out.
@@ -77,7 +70,7 @@ class Executor {
   unsigned threads_ = 1;
   bool always_parallel_ = false;
   std::unique_ptr<WorkerPool> workers_;
-  std::unique_ptr<CallObserver> observer_;
+  std::unique_ptr<Observer> observer_;
   std::vector<Thread> state_ = std::vector<Thread>(1);
   TickClock clock_;
   Timeline timeline_;

@@ -181,7 +181,7 @@ std::vector<double> Scheduler::periods_of_asked(const std::vector<bool>& counts)
   return periods;
 }
 
-void Scheduler::add_providers(TaskId reader, std::vector<bool>& added, std::vector<DueTask>& due) const {
+void Scheduler::add_providers(TaskId reader, std::vector<bool>& added, std::vector<Task::Due>& due) const {
   const bool is_step = belongs_to_steps_[reader] || tasks_[reader].part() == InstantPart::moves;
   for (const TaskId p : providers_[reader]) {
     if (added[p] || (belongs_to_steps_[p] && !is_step)) continue;
@@ -193,7 +193,7 @@ void Scheduler::add_providers(TaskId reader, std::vector<bool>& added, std::vect
 
 /// Adds the tasks that motions among the due items ask for.
 void Scheduler::add_step_tasks(const std::vector<std::size_t>& items, std::vector<bool>& added,
-                               std::vector<DueTask>& due) const {
+                               std::vector<Task::Due>& due) const {
   for (const std::size_t i : items)
     for (const TaskId motion : items_[i]) {
       if (tasks_[motion].part() != InstantPart::moves) continue;
@@ -207,7 +207,7 @@ void Scheduler::add_step_tasks(const std::vector<std::size_t>& items, std::vecto
 }
 
 /// `starts`: what belongs to the steps of motions runs before all who might read it.
-std::vector<DueTask> Scheduler::due_tasks_of(const Mask& due, bool starts) const {
+std::vector<Task::Due> Scheduler::due_tasks_of(const Mask& due, bool starts) const {
   std::vector<std::size_t> items;
   for (std::size_t i = 0; i < items_.size(); ++i)
     if (!items_[i].empty() && !tasks_[items_[i].front()].rate.on_demand() && due[group_of_item_[i]]) items.push_back(i);
@@ -216,7 +216,7 @@ std::vector<DueTask> Scheduler::due_tasks_of(const Mask& due, bool starts) const
     if (tasks_[first].order() != tasks_[second].order()) return tasks_[first].order() < tasks_[second].order();
     return first < second;
   });
-  std::vector<DueTask> tasks;
+  std::vector<Task::Due> tasks;
   std::vector<bool> added(tasks_.size());
   const auto add = [&](TaskId t) {
     add_providers(t, added, tasks);
@@ -232,10 +232,10 @@ std::vector<DueTask> Scheduler::due_tasks_of(const Mask& due, bool starts) const
   return tasks;
 }
 
-Plan Scheduler::plan_of(const std::vector<DueTask>& due, std::uint32_t instants) const {
+Plan Scheduler::plan_of(const std::vector<Task::Due>& due, std::uint32_t instants) const {
   Plan plan;
   for (std::uint32_t i = 0; i < instants; ++i)
-    for (DueTask t : due) {
+    for (Task::Due t : due) {
       t.instant = i;
       plan.due.push_back(t);
     }
@@ -253,7 +253,7 @@ Scheduler::Plans& Scheduler::plans_for(const Mask& due) {
   return *last_plans_;
 }
 
-std::vector<DueTask> Scheduler::due_tasks_at(std::int64_t time) const {
+std::vector<Task::Due> Scheduler::due_tasks_at(std::int64_t time) const {
   Mask due(groups_.size());
   for (std::size_t g = 0; g < due.size(); ++g) {
     const std::int64_t since = time - groups_[g].phase;
@@ -264,7 +264,7 @@ std::vector<DueTask> Scheduler::due_tasks_at(std::int64_t time) const {
 
 std::vector<TaskId> Scheduler::order_at(std::int64_t time) const {
   std::vector<TaskId> order;
-  for (const DueTask& t : due_tasks_at(time)) order.push_back(t.task);
+  for (const Task::Due& t : due_tasks_at(time)) order.push_back(t.task);
   return order;
 }
 
@@ -342,7 +342,7 @@ void Scheduler::run_until(std::int64_t end, const std::function<bool()>& stop) {
 void Scheduler::run_extra(const std::vector<TaskId>& tasks) {
   if (!prepared_) prepare();
   std::vector<std::uint64_t> runs = runs_;
-  std::vector<DueTask> due;
+  std::vector<Task::Due> due;
   for (const TaskId t : tasks) due.push_back({t, periods_[t]});
   Plan plan = plan_of(due, 1);
   executor_.run(tasks_, plan, {&now_, 1}, seed_, runs);

@@ -26,7 +26,7 @@
 // A thread that is free takes the next chain, and a stage begins when the one before is done. The Executor carries this
 // out, and the Timeline records who did what. The stages of an instant are a Plan, made once for each set of due tasks;
 // for eight instants in which the same is due there is one plan, in which motion of one instant and kinematics of the
-// next form one chain. A ParallelismTuner measures now and then whether several threads are faster for a plan than one;
+// next form one chain. A Plan::Tuner measures now and then whether several threads are faster for a plan than one;
 // where they are not, thread 0 does it all. Order and blocks depend on the scene alone, so results never depend on
 // threads.
 #pragma once
@@ -35,8 +35,8 @@
 #include <unordered_map>
 
 #include "core/hash.hpp"
+#include "core/pacer.hpp"
 #include "core/schedule/executor.hpp"
-#include "core/schedule/pacer.hpp"
 
 namespace muro {
 
@@ -72,7 +72,7 @@ class Scheduler {
   /// Each instant is complete before the next one begins, so that something can happen in between. [between runs]
   void set_one_at_a_time() { one_at_a_time_ = true; }
   const std::vector<Task>& tasks() const { return tasks_; }
-  TaskCost cost(TaskId t) const { return executor_.cost(t); }
+  Task::Cost cost(TaskId t) const { return executor_.cost(t); }
   /// Wall-clock seconds per tick of the costs.
   double seconds_per_tick() const { return executor_.seconds_per_tick(); }
   Executor& executor() { return executor_; }
@@ -106,20 +106,21 @@ class Scheduler {
   };
   using Mask = std::vector<bool>;  ///< which groups are due
 
-  std::vector<DueTask> due_tasks_of(const Mask& due, bool starts) const;
-  std::vector<DueTask> due_tasks_at(std::int64_t time) const;
+  std::vector<Task::Due> due_tasks_of(const Mask& due, bool starts) const;
+  std::vector<Task::Due> due_tasks_at(std::int64_t time) const;
   void find_providers();
   void find_step_tasks();
   bool is_start_of_steps() const;
   void find_periods();
   std::vector<double> periods_of_asked(const std::vector<bool>& counts) const;
-  void add_step_tasks(const std::vector<std::size_t>& items, std::vector<bool>& added, std::vector<DueTask>& due) const;
-  void add_providers(TaskId reader, std::vector<bool>& added, std::vector<DueTask>& due) const;
+  void add_step_tasks(const std::vector<std::size_t>& items, std::vector<bool>& added,
+                      std::vector<Task::Due>& due) const;
+  void add_providers(TaskId reader, std::vector<bool>& added, std::vector<Task::Due>& due) const;
   /// For instants in which the same is due: for one, and for `instants_together` that follow each other.
   struct Plans {
     Plan one, together;
   };
-  Plan plan_of(const std::vector<DueTask>& due, std::uint32_t instants) const;
+  Plan plan_of(const std::vector<Task::Due>& due, std::uint32_t instants) const;
   Plans& plans_for(const Mask& due);
   void forget_plans();
   std::int64_t next_time() const;

@@ -5,6 +5,14 @@
 
 namespace muro {
 
+void Task::merge(std::vector<Access>& accesses) {
+  std::sort(accesses.begin(), accesses.end(), [](const Access& a, const Access& b) {
+    return a.slot != b.slot ? a.slot < b.slot : a.exclusive > b.exclusive;
+  });
+  const auto same = [](const Access& a, const Access& b) { return a.slot == b.slot; };
+  accesses.erase(std::unique(accesses.begin(), accesses.end(), same), accesses.end());
+}
+
 std::vector<std::uint32_t> block_bounds(std::uint32_t count) {
   constexpr std::uint32_t lane = 8, max_block = 64, usual_block = 24;
   // An even number of blocks, so that two threads get the same; enough of them for the threads of a large machine.
@@ -31,9 +39,9 @@ class StageBuilder {
   explicit StageBuilder(std::size_t slots) : users_(slots) {}
 
   /// The chain that a call with these accesses must follow: no_chain, a chain, or several_chains.
-  std::int32_t chain_before(std::span<const SlotAccess> accesses) const {
+  std::int32_t chain_before(std::span<const Task::Access> accesses) const {
     std::int32_t found = no_chain;
-    for (const SlotAccess& a : accesses) {
+    for (const Task::Access& a : accesses) {
       const Users& u = users_[a.slot];
       if (u.stage != stage_) continue;
       found = both(found, u.writer);
@@ -42,15 +50,15 @@ class StageBuilder {
     }
     return found;
   }
-  void add(std::int32_t chain, const Call& call, std::span<const SlotAccess> accesses) {
+  void add(std::int32_t chain, const Stage::Call& call, std::span<const Task::Access> accesses) {
     const auto c = std::size_t(chain == no_chain ? std::int32_t(chains_.size()) : chain);
     if (c == chains_.size()) chains_.emplace_back();
     chains_[c].push_back(call);
-    for (const SlotAccess& a : accesses) user_of(a) = both(user_of(a), std::int32_t(c));
+    for (const Task::Access& a : accesses) user_of(a) = both(user_of(a), std::int32_t(c));
   }
   /// Accesses that the calls of several chains have in common.
-  void add_common(std::span<const SlotAccess> accesses) {
-    for (const SlotAccess& a : accesses) user_of(a) = several_chains;
+  void add_common(std::span<const Task::Access> accesses) {
+    for (const Task::Access& a : accesses) user_of(a) = several_chains;
   }
   void close(std::vector<Stage>& stages) {
     ++stage_;
@@ -60,7 +68,8 @@ class StageBuilder {
       s.calls.insert(s.calls.end(), chain.begin(), chain.end());
       s.ends.push_back(std::uint32_t(s.calls.size()));
     }
-    s.all_optional = std::all_of(s.calls.begin(), s.calls.end(), [](const Call& c) { return c.enabled != nullptr; });
+    s.all_optional =
+        std::all_of(s.calls.begin(), s.calls.end(), [](const Stage::Call& c) { return c.enabled != nullptr; });
     stages.push_back(std::move(s));
     chains_.clear();
   }
@@ -70,7 +79,7 @@ class StageBuilder {
     std::uint32_t stage = 0;
     std::int32_t writer = no_chain, reader = no_chain;
   };
-  std::int32_t& user_of(const SlotAccess& a) {
+  std::int32_t& user_of(const Task::Access& a) {
     Users& u = users_[a.slot];
     if (u.stage != stage_) u = {stage_, no_chain, no_chain};
     return a.exclusive ? u.writer : u.reader;
@@ -80,14 +89,14 @@ class StageBuilder {
   }
 
   std::vector<Users> users_;
-  std::vector<std::vector<Call>> chains_;
+  std::vector<std::vector<Stage::Call>> chains_;
   std::uint32_t stage_ = 1;
 };
 
 /// A call with its own accesses; those that all calls of its phase have in common are kept once.
 struct CallWithAccesses {
-  Call call;
-  std::vector<SlotAccess> accesses;
+  Stage::Call call;
+  std::vector<Task::Access> accesses;
 };
 using Calls = std::vector<CallWithAccesses>;
 
@@ -96,7 +105,7 @@ class TaskPartition {
  public:
   TaskPartition(const Task& task, std::span<const RobotId> robot_of_slot, const std::vector<std::uint32_t>& bounds)
       : task_(task), bounds_(bounds), of_block_(bounds.size()) {
-    for (const SlotAccess& a : task.accesses) {
+    for (const Task::Access& a : task.accesses) {
       const RobotId robot = robot_of_slot[a.slot];
       (robot == no_robot ? of_no_robot_ : of_block_[block_of(index_of(robot))]).push_back(a);
     }
@@ -106,7 +115,7 @@ class TaskPartition {
   }
 
   /// The calls of a phase. `common`: the accesses that all of them have, without harm to each other.
-  Calls calls(Call call, std::vector<SlotAccess>& common) const {
+  Calls calls(Stage::Call call, std::vector<Task::Access>& common) const {
     const Phase phase = task_.phases[call.phase];
     const std::uint32_t length = task_.length(call.phase);
     const bool over_robots = phase.index_space == Phase::IndexSpace::robots;
@@ -118,14 +127,14 @@ class TaskPartition {
     common = of_no_robot_;
     if (phase.scope == Phase::Scope::reads_all)
       for (const auto& block : of_block_)
-        for (const SlotAccess& a : block)
+        for (const Task::Access& a : block)
           if (!a.exclusive) common.push_back(a);
     Calls calls;
     for (std::size_t b = 0; b + 1 < bounds_.size(); ++b) {
       call.range = over_robots ? Range{bounds_[b], bounds_[b + 1]} : items_of(bounds_[b], bounds_[b + 1]);
       if (call.range.begin == call.range.end) continue;
       CallWithAccesses& of_block = calls.emplace_back(CallWithAccesses{call, {}});
-      for (const SlotAccess& a : of_block_[b])
+      for (const Task::Access& a : of_block_[b])
         if (a.exclusive || phase.scope == Phase::Scope::own_robot) of_block.accesses.push_back(a);
     }
     if (phase.fine_grained) calls = one_by_one(calls);
@@ -161,21 +170,21 @@ class TaskPartition {
 
   const Task& task_;
   const std::vector<std::uint32_t>& bounds_;
-  std::vector<std::vector<SlotAccess>> of_block_;
-  std::vector<SlotAccess> of_no_robot_;
+  std::vector<std::vector<Task::Access>> of_block_;
+  std::vector<Task::Access> of_no_robot_;
   bool in_order_ = false;  ///< items stand in the order of their robots
 };
 
 }  // namespace
 
-std::vector<Stage> stages_of(std::span<const DueTask> due, std::span<const Task> tasks,
+std::vector<Stage> stages_of(std::span<const Task::Due> due, std::span<const Task> tasks,
                              std::span<const RobotId> robot_of_slot, bool overlap) {
   std::uint32_t robots = 0;
   for (const Task& t : tasks) robots = std::max(robots, t.robots);
   const std::vector<std::uint32_t> bounds = block_bounds(robots);
   std::vector<Stage> stages;
   StageBuilder builder(robot_of_slot.size());
-  std::vector<SlotAccess> common;
+  std::vector<Task::Access> common;
   std::vector<std::int32_t> chains;
   for (std::uint32_t order = 0; order < due.size(); ++order) {
     const TaskId id = due[order].task;

@@ -8,23 +8,23 @@
 
 namespace muro {
 
-/// One call of an algorithm's step.
-struct Call {
-  TaskId task = 0;
-  std::uint32_t phase = 0;
-  Range range;
-  double dt = 0;                          ///< s
-  std::uint32_t instant = 0;              ///< of several that are carried out together
-  std::uint32_t order = 0;                ///< place of the due task in the order
-  const std::uint8_t* enabled = nullptr;  ///< Phase::enabled
-  bool is_enabled() const { return !enabled || *enabled != 0; }
-};
-
 /// Calls that may run at the same time, in call chains: the calls of a chain run one after the other. A chain is the
 /// work item that a thread takes.
 struct Stage {
+  /// A call of an algorithm's step.
+  struct Call {
+    TaskId task = 0;
+    std::uint32_t phase = 0;
+    Range range;
+    double dt = 0;                          ///< s
+    std::uint32_t instant = 0;              ///< of several that are carried out together
+    std::uint32_t order = 0;                ///< place of the due task in the order
+    const std::uint8_t* enabled = nullptr;  ///< Phase::enabled
+    bool is_enabled() const { return !enabled || *enabled != 0; }
+  };
+
   std::vector<Call> calls;          ///< chain by chain
-  std::vector<std::uint32_t> ends;  ///< of each chain, in `calls`
+  std::vector<std::uint32_t> ends;  ///< end of each chain, in `calls`
   bool all_optional = false;        ///< each call has an `enabled`
   std::uint32_t chains() const { return std::uint32_t(ends.size()); }
   bool is_enabled() const {
@@ -46,7 +46,7 @@ struct Stage {
 /// scene alone, never on the number of threads. scheduler.hpp shows an example.
 /// `robot_of_slot`: the robot that a property belongs to. Without `overlap`, each phase of each due task
 /// is a stage.
-std::vector<Stage> stages_of(std::span<const DueTask> due, std::span<const Task> tasks,
+std::vector<Stage> stages_of(std::span<const Task::Due> due, std::span<const Task> tasks,
                              std::span<const RobotId> robot_of_slot, bool overlap = true);
 
 /// Where blocks of `count` robots begin, and `count`: at multiples of 8, so that SIMD lanes are full.

@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "core/c_locale.hpp"
-#include "core/schedule/timeline.hpp"
+#include "core/tick_clock.hpp"
 
 namespace muro {
 

@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 double ms_per_simulated_s(const Simulation& s, std::size_t instance, double simulated) {
-  const TaskCost& cost = s.scheduler().cost(s.task_of(instance));
+  const Task::Cost& cost = s.scheduler().cost(s.task_of(instance));
   return simulated > 0 ? 1e3 * double(cost.ticks) * s.scheduler().seconds_per_tick() / simulated : 0;
 }
 

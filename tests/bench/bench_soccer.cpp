@@ -77,7 +77,7 @@ class Game {
     std::map<std::string, double> all;
     for (std::size_t i = 0; i < built_.simulation->instances().size(); ++i) {
       const Scheduler& scheduler = built_.simulation->scheduler();
-      const TaskCost cost = scheduler.cost(built_.simulation->task_of(i));
+      const Task::Cost cost = scheduler.cost(built_.simulation->task_of(i));
       all[built_.simulation->instances()[i]->setup().use] +=
           1e3 * double(cost.ticks) * scheduler.seconds_per_tick() / simulated;
     }

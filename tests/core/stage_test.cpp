@@ -39,7 +39,7 @@ TEST(BlockBounds, GiveTwoThreadsNearlyEqualHalves) {
 struct Team : ::testing::Test {
   std::uint32_t robots = 40;
   std::vector<Task> tasks;
-  std::vector<DueTask> due;
+  std::vector<Task::Due> due;
 
   std::uint32_t common(std::uint32_t i) const { return 10 * robots + i; }
   Task& add(std::vector<Phase> phases) {
@@ -120,7 +120,7 @@ TEST_F(Stages, WithoutOverlapEachPhaseOfATaskIsAStage) {
   ASSERT_EQ(all.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(all[k].chains(), block_bounds(robots).size() - 1);
-    for (const Call& c : all[k].calls) EXPECT_EQ(c.task * 2 + c.phase, k);
+    for (const Stage::Call& c : all[k].calls) EXPECT_EQ(c.task * 2 + c.phase, k);
   }
 }
 
@@ -198,11 +198,11 @@ TEST_F(Stages, EveryConflictKeepsTheOrderOfDueTasks) {
     std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> served;
     for (std::size_t s = 0; s < all.size(); ++s)
       for (std::uint32_t c = 0; c < all[s].chains(); ++c)
-        for (const Call& call : all[s].chain(c)) {
+        for (const Stage::Call& call : all[s].chain(c)) {
           const Phase phase = tasks[call.task].phases[call.phase];
           for (std::uint32_t i = call.range.begin; i < call.range.end; ++i)
             EXPECT_EQ(served.insert(std::tuple(call.order, call.phase, i)).second, true);
-          for (const SlotAccess& a : tasks[call.task].accesses) {
+          for (const Task::Access& a : tasks[call.task].accesses) {
             const RobotId robot = of_slot[a.slot];
             const bool inside =
                 robot == no_robot || (index_of(robot) >= call.range.begin && index_of(robot) < call.range.end);

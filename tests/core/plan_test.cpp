@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/schedule/parallelism_tuner.hpp"
+#include "core/schedule/plan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@ namespace {
 
 /// Runs of a plan on some machine, with the time that a run takes on one thread and on several, in ticks.
 struct Runs {
-  ParallelismTuner tuner = {};
+  Plan::Tuner tuner = {};
   std::uint64_t one = 0, several = 0;
   int on_several = 0;
 
@@ -24,19 +24,19 @@ struct Runs {
   }
 };
 
-TEST(ParallelismTuner, UsesThreadsThatAreFasterNearlyAlways) {
+TEST(PlanTuner, UsesThreadsThatAreFasterNearlyAlways) {
   Runs runs{.one = 16'000, .several = 9'000};
   runs.make(100);
   EXPECT_GT(runs.make(10'000), 9'850);
 }
 
-TEST(ParallelismTuner, UsesOneThreadNearlyAlwaysWhereThatIsFaster) {
+TEST(PlanTuner, UsesOneThreadNearlyAlwaysWhereThatIsFaster) {
   Runs runs{.one = 5'000, .several = 6'000};
   runs.make(100);
   EXPECT_LT(runs.make(10'000), 150);
 }
 
-TEST(ParallelismTuner, KeepsSeveralThreadsWhileWorkGrows) {
+TEST(PlanTuner, KeepsSeveralThreadsWhileWorkGrows) {
   Runs runs{.one = 16'000, .several = 9'000};
   runs.make(5'000);
   for (int more = 0; more < 40; ++more) {  // in the end several threads take twice as long as one thread took at first
@@ -45,14 +45,14 @@ TEST(ParallelismTuner, KeepsSeveralThreadsWhileWorkGrows) {
   }
 }
 
-TEST(ParallelismTuner, KeepsSeveralThreadsWhenWorkDoublesAtOnce) {
+TEST(PlanTuner, KeepsSeveralThreadsWhenWorkDoublesAtOnce) {
   Runs runs{.one = 16'000, .several = 9'000};
   runs.make(300);
   runs.one *= 2, runs.several *= 2;
   EXPECT_GT(runs.make(1'000), 950);
 }
 
-TEST(ParallelismTuner, TakesSeveralThreadsSoonWhenOneHasMoreToDo) {
+TEST(PlanTuner, TakesSeveralThreadsSoonWhenOneHasMoreToDo) {
   Runs runs{.one = 5'000, .several = 6'000};
   runs.make(30'000);
   runs.one = 50'000, runs.several = 27'000;
@@ -60,7 +60,7 @@ TEST(ParallelismTuner, TakesSeveralThreadsSoonWhenOneHasMoreToDo) {
   EXPECT_GT(runs.make(1'000), 950);
 }
 
-TEST(ParallelismTuner, ReturnsToOneThreadWhenWorkShrinks) {
+TEST(PlanTuner, ReturnsToOneThreadWhenWorkShrinks) {
   Runs runs{.one = 16'000, .several = 9'000};
   runs.make(5'000);
   runs.one = 2'000, runs.several = 3'000;
@@ -68,7 +68,7 @@ TEST(ParallelismTuner, ReturnsToOneThreadWhenWorkShrinks) {
   EXPECT_LT(runs.make(10'000), 150);
 }
 
-TEST(ParallelismTuner, BacksOffFromThreadsThatAreSlowExceptInTrials) {
+TEST(PlanTuner, BacksOffFromThreadsThatAreSlowExceptInTrials) {
   // A machine with more work than cores: it suspends a worker after some milliseconds, not at once.
   Runs runs{.one = 16'000, .several = 9'000};
   int slow = 0;
@@ -81,7 +81,7 @@ TEST(ParallelismTuner, BacksOffFromThreadsThatAreSlowExceptInTrials) {
   EXPECT_LT(slow, 2'000);
 }
 
-TEST(ParallelismTuner, IsNotDecidedByOneOutlier) {
+TEST(PlanTuner, IsNotDecidedByOneOutlier) {
   Runs runs{.one = 16'000, .several = 9'000};
   for (const int before : {10, 20, 500}) {  // during a trial, soon after it, later
     runs.make(before);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/schedule/parallelism_tuner.hpp"
+#include "core/schedule/plan.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -13,7 +13,7 @@ constexpr std::uint32_t window = 64, calm = 4;  // windows without suspicion, af
 
 }  // namespace
 
-void ParallelismTuner::learn(std::uint64_t duration) {
+void Plan::Tuner::learn(std::uint64_t duration) {
   constexpr double worth = 0.97;        // of the time on one thread
   constexpr double clearly = 0.75;      // the same: a result that holds for longer
   constexpr double hopeless = 1.5;      // the same, of a whole trial
@@ -46,13 +46,13 @@ void ParallelismTuner::learn(std::uint64_t duration) {
   enter(State::parallel);
 }
 
-void ParallelismTuner::enter(State state) {
+void Plan::Tuner::enter(State state) {
   state_ = state;
   runs_ = 0;
   total_ = 0;
 }
 
-void ParallelismTuner::settle(bool parallel, std::uint32_t first_interval) {
+void Plan::Tuner::settle(bool parallel, std::uint32_t first_interval) {
   interval_ = known_ && parallel == parallel_ ? std::min(4 * interval_, max_interval) : first_interval;
   known_ = true;
   parallel_ = parallel;
@@ -62,7 +62,7 @@ void ParallelismTuner::settle(bool parallel, std::uint32_t first_interval) {
 
 /// A machine that is busy with other things may suspend a worker in the midst of its work, which a short trial does not
 /// see. Or there is more work than at the last trial. A look at one thread tells: see learn().
-void ParallelismTuner::watch(double duration) {
+void Plan::Tuner::watch(double duration) {
   total_ += std::min(duration, 0.25 * window * serial_);  // one outlier decides nothing
   if (runs_ % window != 0) return;
   if (std::exchange(total_, 0) <= window * serial_) {
@@ -75,7 +75,7 @@ void ParallelismTuner::watch(double duration) {
 
 /// What one thread did fast enough may be more by now, as when robots meet, and worth several. Where the next trial
 /// finds that it is not, the look after it takes twice as long.
-void ParallelismTuner::watch_growth(double duration) {
+void Plan::Tuner::watch_growth(double duration) {
   constexpr double growth = 1.5;
   total_ += std::min(duration, 0.25 * window * serial_);  // one outlier decides nothing
   const std::uint32_t runs = window * growth_windows_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/schedule/pacer.hpp"
+#include "core/pacer.hpp"
 
 #include <algorithm>
 #include <cmath>
