@@ -12,9 +12,10 @@
 
 namespace muro::host {
 
-Scenario open_file(const ScenarioOptions& options, const Registry& registry) {
+Scenario open_file(const ScenarioOptions& options, const Registry& registry,
+                   const std::function<void(Node& root)>& complete) {
   for (const std::string& p : registry.problems()) fmt::print(stderr, "warning: {}\n", p);
-  Scenario scenario = read_scenario(options.file, options.overrides);
+  Scenario scenario = read_scenario(options.file, options.overrides, complete);
   if (options.seed) scenario.seed = *options.seed;
   return scenario;
 }

@@ -7,7 +7,8 @@
 namespace muro::host {
 
 /// Reads a scenario; prints problems of plugins to standard error.
-Scenario open_file(const ScenarioOptions& options, const Registry& registry);
+Scenario open_file(const ScenarioOptions& options, const Registry& registry,
+                   const std::function<void(Node& root)>& complete = {});
 /// Builds it; prints warnings and notes to standard error. `add_more`: as in build().
 BuiltScenario open_scenario(Scenario scenario, Registry& registry,
                             const std::function<void(Simulation&)>& add_more = {});

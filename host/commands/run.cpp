@@ -138,26 +138,36 @@ void add_inputs(Scenario& scenario, const RunOptions& options) {
   add("replay", "controller.replay", options.replay);
 }
 
-/// Returns the scenario with a window, which sets the pace. Overrides of `algorithms.view` apply to it. A scenario that
-/// has a window already is not changed.
-ScenarioOptions with_view(const RunOptions& options, const Registry& registry) {
+void require_view(const Registry& registry) {
   const auto& catalog = registry.catalog();
   if (std::none_of(catalog.begin(), catalog.end(), [](const CatalogEntry& e) { return e.id == "view.window"; }))
     throw SetupError(
         "--view needs the plugin view.window, which is not installed; install libglfw3-dev, libimgui-dev, "
         "libepoxy-dev, "
         "libegl-dev and libstb-dev, and build muro again");
-  ScenarioOptions scenario = options.scenario;
-  std::vector<std::string> others = scenario.overrides;
-  std::erase_if(others, [](const std::string& o) { return o.starts_with("algorithms.view."); });
-  const Scenario without_view = read_scenario(scenario.file, others);
-  for (const Subsystem& s : without_view.algorithms)
-    if (s.use == "view.window") return scenario;
-  const double speed = options.speed.empty() ? 1 : pacing_factor(options.speed);
-  const std::string view[] = {"algorithms.view.use=view.window", "algorithms.view.rate=60",
-                              fmt::format("algorithms.view.speed={}", speed)};
-  scenario.overrides.insert(scenario.overrides.begin(), std::begin(view), std::end(view));
-  return scenario;
+}
+
+/// Adds a window, which sets the pace, to a scenario that has none. Values that overrides of `algorithms.view` give
+/// have priority.
+void add_view(Node& root, double speed) {
+  const Node* const algorithms = root.find("algorithms");
+  const auto is_given = [&](const char* key) {
+    const Node* const view = algorithms ? algorithms->find("view") : nullptr;
+    return view && view->find(key);
+  };
+  bool has_window = false;
+  if (algorithms)
+    for (const auto& [name, algorithm] : algorithms->map) {
+      const Node* const use = algorithm.find("use");
+      has_window = has_window || (use && use->scalar == "view.window");
+    }
+  if (has_window && !(is_given("use") && !is_given("rate"))) return;
+  const std::pair<const char*, std::string> defaults[] = {
+      {"use", "view.window"}, {"rate", "60"}, {"speed", fmt::format("{}", speed)}};
+  std::vector<std::string> missing;
+  for (const auto& [key, value] : defaults)
+    if (!is_given(key)) missing.push_back(fmt::format("algorithms.view.{}={}", key, value));
+  for (const std::string& one : missing) apply_override(root, one);
 }
 
 /// Runs to `end` (ns), to an interrupt or to a failure; if `includes_end`, also what is due at `end`. The error goes to
@@ -211,7 +221,11 @@ void write_outputs(const RunOptions& options, RunResult& result, const Simulatio
 int run(const RunOptions& options) {
   Registry registry(Registry::search_path(options.scenario.plugin_path));
   const double factor = options.view ? 0 : pacing_factor(options.speed);
-  Scenario scenario = open_file(options.view ? with_view(options, registry) : options.scenario, registry);
+  if (options.view) require_view(registry);
+  const double view_speed = options.speed.empty() ? 1 : pacing_factor(options.speed);
+  Scenario scenario = open_file(options.scenario, registry, [&](Node& root) {
+    if (options.view) add_view(root, view_speed);
+  });
   add_inputs(scenario, options);
   BuiltScenario built = open_scenario(std::move(scenario), registry, [&](Simulation& s) {
     add_outputs(s, {{"--report", options.report}, {"--timeline", options.timeline}});

@@ -193,10 +193,12 @@ std::string instance_name(const std::string& name, bool numbered, std::size_t in
   return numbered ? fmt::format("{}_{}", name, index) : name;
 }
 
-Scenario read_scenario(const std::string& path, const std::vector<std::string>& overrides) {
+Scenario read_scenario(const std::string& path, const std::vector<std::string>& overrides,
+                       const std::function<void(Node& root)>& complete) {
   Scenario out;
   Node root = load_yaml(path, &out.files);
   for (const std::string& o : overrides) apply_override(root, o);
+  if (complete) complete(root);
   out.file = path;
   Problems problems;
   check_empty(root, problems);

@@ -2,6 +2,7 @@
 // The contents of a scenario file, before a simulation is built from them. docs/guide/scenario.md describes the format.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -185,7 +186,9 @@ inline constexpr unsigned max_threads = 1024;
 /// Returns the name of copy `index`: "rover_3", or "rover" when copies are not numbered.
 std::string instance_name(const std::string& name, bool numbered, std::size_t index);
 
-/// Reads a scenario with its includes and overrides. Throws SetupError with every problem found.
-Scenario read_scenario(const std::string& path, const std::vector<std::string>& overrides);
+/// Reads a scenario with its includes and overrides. `complete`, if given, adds to its tree before the tree is read.
+/// Throws SetupError with every problem found.
+Scenario read_scenario(const std::string& path, const std::vector<std::string>& overrides,
+                       const std::function<void(Node& root)>& complete = {});
 
 }  // namespace muro::host
