@@ -35,8 +35,9 @@ inline constexpr Key<std::uint64_t> contact_world{"contact.world", "1", "who ans
                                                   Role::motion_trait};
 inline constexpr std::uint64_t contact_for_all = 1;
 /// Number of steps by which the twist is older than the pose. It is 0 if pose and twist belong to one instant and a
-/// constant force F carries the centre by v h + F h^2 / 2m. It is 0.5 for semi-implicit Euler, v' = v + F h / m, x' = x
-/// + v' h, with velocities of the middles of steps (leapfrog). Contact needs it to keep energy and angular momentum.
+/// constant force F carries the centre by v h + F h^2 / 2m. It is 0.5 for semi-implicit Euler, v' = v + F h / m,
+/// x' = x + v' h, with velocities of the middles of steps (leapfrog). Contact needs it to keep energy and angular
+/// momentum.
 inline constexpr Key<double> twist_lag{"twist.lag", "1", "steps by which the twist is older than the pose",
                                        Role::motion_trait};
 /// Set by a motion that resolves contacts among the links of a robot and needs the collision algorithm to find them.
