@@ -147,8 +147,7 @@ void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
 }
 
 /// Returns the time (s) over which it is learnt how links move otherwise than they seem to. A base that legs carry is
-/// many times as heavy as a foot seems, and follows it later. The longer steps are, the less a foot withstands before
-/// it is learnt.
+/// many times as heavy as a foot seems, and follows it later. With longer steps, a foot bears less that is not learnt.
 double PairContacts::mean_over_of(std::uint32_t self) const {
   constexpr double least = 0.3, short_step = 1e-3;  // s
   const Robot& robot = bodies_.robots[self];

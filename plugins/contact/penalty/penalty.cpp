@@ -94,7 +94,7 @@ class Penalty final : public Algorithm {
     *last_run_ = step.time;
     if (context.stiffness.omega < omega_) report(context.stiffness);
     if (bodies_.tells_kinematic_robots) bodies_.clear_kinematic_lists();
-    constexpr std::size_t few = 12;  // so few take less time than their distribution to threads
+    constexpr std::size_t few = 12;  // so many robots take less time than their distribution to threads
     const std::size_t count = pair_contacts_->begin(context, scenery_contacts_->remaining());
     many_pairs_ = count > few ? 1 : 0;
     tells_kinematic_robots_ = many_pairs_ != 0 && bodies_.tells_kinematic_robots ? 1 : 0;
