@@ -76,8 +76,7 @@ void BlockSystem::find_links() {
   }
 }
 
-/// Eliminates leaves first, repeatedly. If there is none, eliminates the body with the fewest neighbours left in the
-/// system.
+/// Eliminates leaves first, repeatedly. If there is no leaf, eliminates the body with the fewest remaining neighbours.
 void BlockSystem::find_order() {
   find_links();
   const auto bodies = std::uint32_t(diagonals_.size());

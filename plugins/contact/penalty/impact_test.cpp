@@ -72,8 +72,8 @@ TEST(Impacts, ObliqueOnesSlipOrStickAsCoulombSays) {
 }
 
 TEST(Impacts, OfARodsEndThatSlidesAndThenSticksFollowRouthsPath) {
-  // In the plane: change of velocity by an impulse (p, 1) at the end. First p = mu, against the slip; then p is what
-  // keeps the end from slipping, or mu the other way.
+  // In the plane: change of velocity by an impulse (p, 1) at the end. First p = mu, against the slip; then p keeps the
+  // end from slipping, or is mu the other way.
   constexpr double length = 1, e = 0.5, angle = 0.6, inertia = 1.0 / 12, sideways = 0.8;
   constexpr double radius = 1e-3, fall = 1;
   const double x = 0.5 * length * std::cos(angle), z = -0.5 * length * std::sin(angle) - radius;

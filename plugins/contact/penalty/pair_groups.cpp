@@ -117,7 +117,7 @@ void PairContacts::find_touched(std::uint32_t self) {
   }
 }
 
-/// Adds the bodies of a robot. Beside contacts, their weight accelerates them. Impacts come first.
+/// Adds the bodies of a robot. Besides contacts, only their weight accelerates them. Impacts come first.
 void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
   Record& me = record(self);
   const Robot& robot = bodies_.robots[self];

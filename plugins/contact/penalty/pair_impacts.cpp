@@ -52,8 +52,8 @@ void PairContacts::count_impacts(std::uint32_t self) {
     for (const ImpactPatch& p : record(owner).impact_patches) me.impacts += p.other == std::int32_t(self);
 }
 
-/// Resolves each patch with the velocities after the patches before it. So each keeps the energy that restitution
-/// leaves it.
+/// Resolves each patch with the velocities after the patches before it. So each keeps its energy, except for the part
+/// that restitution takes.
 void PairContacts::resolve_in_turns() {
   turns_.clear();
   for (const std::uint32_t robot : robots_) {
