@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rigid-body geometry in SI units: metres, radians, kilograms, newtons.
 // Frames follow ROS REP-103: x forward, y left, z up, right-handed.
-// Every source of muro includes this file: what is written with numbers instead of Eigen's expressions is so because a
-// compiler would instantiate these each time.
+// Every source of muro includes this file. Some functions use numbers instead of Eigen's expressions, because a
+// compiler would instantiate the expressions in each source.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,7 @@ struct Pose {
   Vec3 position = Vec3::Zero();         ///< m
   Quat orientation = Quat::Identity();  ///< unit quaternion
 
-  /// The child point `p` (m) in the parent frame.
+  /// Returns the child point `p` (m) in the parent frame.
   Vec3 operator*(const Vec3& p) const { return orientation * p + position; }
   /// Chains two poses: (parent<-child) * (child<-grandchild).
   Pose operator*(const Pose& b) const { return {*this * b.position, Quat(orientation * b.orientation)}; }
@@ -71,7 +71,7 @@ struct Inertia {
   static Inertia from(double mass, const Vec3& com, const Mat3& tensor) {
     return {mass, com, tensor(0, 0), tensor(1, 1), tensor(2, 2), tensor(0, 1), tensor(0, 2), tensor(1, 2)};
   }
-  /// The same body described in a frame in which this body's frame has pose `pose`.
+  /// Returns the inertia of this body in another frame, in which the frame of the body has pose `pose`.
   Inertia in(const Pose& pose) const {
     const Mat3 r = pose.orientation.toRotationMatrix();
     double turned[3][3] = {};  // r * tensor, then that * r^T
@@ -91,11 +91,11 @@ struct Inertia {
     const Inertia f = moved_to(centre), g = b.moved_to(centre);
     return {total, centre, f.ixx + g.ixx, f.iyy + g.iyy, f.izz + g.izz, f.ixy + g.ixy, f.ixz + g.ixz, f.iyz + g.iyz};
   }
-  /// The tensor (kg m^2) about the point `centre` (m, same axes).
+  /// Returns the tensor (kg m^2) about the point `centre` (m, same axes).
   Mat3 about(const Vec3& centre) const { return moved_to(centre).tensor(); }
 
  private:
-  /// With the tensor about `centre`.
+  /// Returns a copy with `centre` as its com and with the tensor about that point.
   Inertia moved_to(const Vec3& centre) const {
     const double x = com.x() - centre.x(), y = com.y() - centre.y(), z = com.z() - centre.z();
     return {mass,

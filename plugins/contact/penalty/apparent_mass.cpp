@@ -32,7 +32,8 @@ class Tree {
   const Pose& operator[](std::size_t i) const { return in_base_[i]; }
   Eigen::Index columns() const { return Eigen::Index(6 + links_.size()); }
 
-  /// Velocity (linear, angular) of the point `at` of body `i` by velocities of the base and of all joints.
+  /// Returns the velocity (linear, angular) of the point `at` of body `i`, per velocities of the base and of all
+  /// joints.
   Jacobian jacobian(std::size_t i, const Vec3& at) const {
     Jacobian j = Jacobian::Zero(6, columns());
     const auto add_rotation = [&](Eigen::Index column, const Vec3& axis, const Vec3& centre) {
@@ -74,7 +75,7 @@ ApparentMasses apparent_masses(Rows<Link> links, std::span<const Inertia> inerti
     mass += inertias[i].mass * j.topRows<3>().transpose() * j.topRows<3>() +
             j.bottomRows<3>().transpose() * tensor * j.bottomRows<3>();
   }
-  // Joints that move nothing, and columns of fixed ones.
+  // Small inertias for joints that move nothing, and for columns of fixed joints.
   const double least = 1e-9 * mass.diagonal().maxCoeff();
   for (Eigen::Index k = 0; k < mass.rows(); ++k)
     if (mass(k, k) < least) mass(k, k) = least;
@@ -104,7 +105,7 @@ ApparentMasses apparent_masses(Rows<Link> links, std::span<const Inertia> inerti
 
 double ApparentMasses::shared_by(std::span<const std::uint32_t> touched) const {
   constexpr int iterations = 12;
-  constexpr double margin = 1.1;  // of what the iteration does not reach
+  constexpr double margin = 1.1;  // for what the iteration does not reach
   if (touched.size() < 2) return 1;
   const auto block = [&](std::size_t i, std::size_t k) {
     return coupling.block<6, 6>(6 * Eigen::Index(touched[i]), 6 * Eigen::Index(touched[k]));

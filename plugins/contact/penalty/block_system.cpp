@@ -76,7 +76,7 @@ void BlockSystem::find_links() {
   }
 }
 
-/// Leaves first, again and again; where there is none, the body with the lowest number.
+/// Eliminates leaves first, repeatedly. If there is no leaf, eliminates the body with the fewest remaining neighbours.
 void BlockSystem::find_order() {
   find_links();
   const auto bodies = std::uint32_t(diagonals_.size());
@@ -98,7 +98,7 @@ void BlockSystem::find_order() {
       }
     std::size_t done = order_.size();
     eliminate(first);
-    for (; done < order_.size(); ++done)  // a branch up to where it ends
+    for (; done < order_.size(); ++done)  // a branch up to its end
       for (const Link& l : links(order_[done]))
         if (rank_[l.body] == open && degree_[l.body] <= 1) eliminate(l.body);
   }
@@ -118,12 +118,12 @@ std::uint32_t BlockSystem::coupling_of(std::uint32_t a, std::uint32_t b) const {
   return no_coupling;
 }
 
-/// L D L' of the blocks that there are.
+/// Computes L D L', only in the blocks that exist.
 void BlockSystem::factorise() {
   std::copy(diagonals_.begin(), diagonals_.end(), pivots_.begin());
   for (Coupling& c : couplings_) c.factor = c.block;
   for (const std::uint32_t body : order_) {
-    // what was left out may have taken too much from it
+    // without fill-in, too much may have been subtracted from it
     if (!factors_[body].compute(pivots_[body])) factors_[body].compute(diagonals_[body]);
     for (const Link& l : links(body)) {
       if (rank_[l.body] < rank_[body]) continue;
@@ -134,7 +134,7 @@ void BlockSystem::factorise() {
       for (const Link& m : links(body)) {
         if (rank_[m.body] <= rank_[l.body]) continue;
         const std::uint32_t both = coupling_of(l.body, m.body);
-        // factors of rows behind this one are not divided yet
+        // factors of later rows are not divided yet
         if (both != no_coupling)
           couplings_[both].factor.noalias() -= couplings_[m.coupling].factor.lazyProduct(divided.transpose());
       }

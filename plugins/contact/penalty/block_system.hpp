@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A sparse symmetric positive definite system of linear equations in blocks of 6: one block a rigid body, one coupling
-// for two bodies that touch.
+// A sparse symmetric positive definite system of linear equations in blocks of 6: one block for each rigid body, one
+// coupling for each two bodies that touch.
 //
-// It is solved by conjugate gradients, preconditioned by an incomplete Cholesky factorisation in blocks that fills
-// nothing in (Meijerink and van der Vorst, An iterative solution method for linear systems of which the coefficient
-// matrix is a symmetric M-matrix, Math. Comp. 31, 1977). Bodies that touch nothing but one more are eliminated first,
-// so that the factorisation of a tree (a stack, a load on four wheels) is exact and one iteration is enough.
+// It is solved by conjugate gradients, preconditioned by an incomplete Cholesky factorisation in blocks without fill-in
+// (Meijerink and van der Vorst, An iterative solution method for linear systems of which the coefficient matrix is a
+// symmetric M-matrix, Math. Comp. 31, 1977). Bodies that touch only one other body are eliminated first. So the
+// factorisation of a tree (a stack, a load on four wheels) is exact and one iteration is enough.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,22 +16,23 @@
 
 namespace muro::penalty {
 
-/// L L' of a symmetric positive definite block. (That of Eigen is made for large matrices.)
+/// Cholesky factor L L' of a symmetric positive definite block. (That of Eigen is made for large matrices.)
 class BlockFactor {
  public:
   using Block = Eigen::Matrix<double, 6, 6>;
   using Vector = Eigen::Matrix<double, 6, 1>;
 
-  /// From the lower triangle. Returns false, and is of no use, where the block is not positive definite.
+  /// Computes the factor from the lower triangle. Returns false if the block is not positive definite; then the factor
+  /// is of no use.
   bool compute(const Block& block);
   /// Solves for one right side.
   Vector solve(Vector right) const;
-  /// Of each row of `rows` the solution for it as right side.
+  /// Replaces each row of `rows` by the solution for it as right side.
   void divide(Block& rows) const;
 
  private:
   Block lower_;      ///< below the diagonal
-  Vector inverses_;  ///< of the diagonal
+  Vector inverses_;  ///< of the elements of the diagonal
 };
 
 class BlockSystem {
@@ -42,9 +43,9 @@ class BlockSystem {
 
   /// Starts a system without couplings.
   void start(std::uint32_t bodies);
-  /// The coupling of two bodies; the same one whenever it is asked for.
+  /// Returns the coupling of two bodies; the same one in each call for these bodies.
   std::uint32_t couple(std::uint32_t a, std::uint32_t b);
-  /// Call it when all couplings are known. All blocks are 0 then.
+  /// Finds the order of elimination and sets all blocks to 0. Call it when all couplings are known.
   void find_order();
   void set_zero();
 
@@ -57,8 +58,8 @@ class BlockSystem {
       couplings_[coupling].block += block.transpose();
   }
 
-  /// x: in, a guess; out, the solution. Ends when the error of x in the norm of the system, squared, is about
-  /// `tolerance`. Returns the number of iterations.
+  /// Solves the system. `x`: in, a guess; out, the solution. Ends when the squared error of x, in the norm of the
+  /// system, is about `tolerance`. Returns the number of iterations.
   int solve(std::span<const Vector> right, std::span<Vector> x, double tolerance);
 
  private:
@@ -67,7 +68,7 @@ class BlockSystem {
     std::uint32_t before;         ///< coupling of the same first body that was made before, or no_coupling
     Block block, factor;
   };
-  /// Of one body, in `links_`.
+  /// Neighbour of a body, in `links_`, and their coupling.
   struct Link {
     std::uint32_t body, coupling;
   };
@@ -84,7 +85,7 @@ class BlockSystem {
   std::vector<BlockFactor> factors_;
   std::vector<Coupling> couplings_;
   std::vector<Link> links_;
-  std::vector<std::uint32_t> newest_;  ///< by first body: its newest coupling
+  std::vector<std::uint32_t> newest_;  ///< for each first body: its newest coupling
   std::vector<std::uint32_t> first_link_, order_, rank_, degree_;
   std::vector<Vector> residual_, direction_, image_, preconditioned_;
 };

@@ -38,8 +38,8 @@ void Bodies::connect(Connector& c) {
   sort_by_order_key(by_order_key);
 }
 
-/// One link rests 0.2 mm deep where steps are long. A robot with joints presses with its drives, not with the weight
-/// of the link that touches: it is solved as soon as a contact lasts deeper than it should.
+/// A single link rests 0.2 mm deep if steps are long. A robot with joints presses with its drives, not with the weight
+/// of the link that touches. So it is solved as soon as a contact stays deeper than it should.
 bool Bodies::is_solved_alone(const StepContext& context, std::uint32_t number) const {
   constexpr double deep = 2e-4, very_deep = 1e-3, slow = 0.01;  // m, m/s
   const Robot& robot = robots[number];
@@ -115,7 +115,7 @@ void Bodies::connect_robot(Connector& c, const RobotView& view, bool resists_tur
   apparent_masses.emplace_back();
 }
 
-/// Of a robot that forces move: its base, and the links whose motion reads the forces on them, are dynamic bodies.
+/// Connects the bodies of a robot that forces move: its base and the links on which its motion reads forces.
 void Bodies::connect_links(Connector& c, const RobotView& view) {
   if (robot_of[index_of(view.id)] == not_dynamic) return;
   Robot& r = robots[std::size_t(robot_of[index_of(view.id)])];

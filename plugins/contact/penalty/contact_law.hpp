@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The force of one contact, over a double or SIMD lanes of robots: a spring and damper along the normal, a spring with
-// a slider across.
+// a slider across it.
 //
-// Forces are given per unit of effective mass (m/s^2). Both directions are integrated linearly implicitly: the force
-// of a step is the one that spring and damper have in the middle of that step, predicted for a body that this contact
-// alone acts on. That is the implicit midpoint rule, exact in energy for a spring. Where several contacts act on one
-// body, `load` tells how much stiffer its stiffest motion is than one contact assumes, and the force is softened as far
-// as stability asks for it.
+// Forces are given per unit of effective mass (m/s^2). Both directions are integrated linearly implicitly: the force of
+// a step is that of spring and damper in the middle of the step, predicted for a body on which only this contact acts.
+// This is the implicit midpoint rule, exact in energy for a spring. If several contacts act on one body, `load` is the
+// ratio by which its stiffest motion is stiffer than one contact assumes. The force is then softened as much as
+// stability requires.
 #pragma once
 
 #include "muro/simd/geometry.hpp"
@@ -14,16 +14,16 @@
 
 namespace muro::penalty {
 
-/// What all contacts of a step have in common.
+/// Stiffness of all contacts of a step.
 struct Stiffness {
-  double omega = 0;  ///< rad/s: of a body with the effective mass on the contact; omega h <= max_phase_step
+  double omega = 0;  ///< rad/s: frequency of a body with the effective mass on the contact; omega h <= max_phase_step
   double h = 0;      ///< s: length of the step
 };
-/// Up to here, a rebound gains no energy, at whatever time in the step the impact is.
+/// Limit of omega h up to which a rebound gains no energy, at any time of the impact in the step.
 inline constexpr double max_phase_step = 0.6;
 
-/// A contact that lasts moves with the bodies: its point is no farther than this (m), and than so many times the slip
-/// in a step, from its friction anchor of the step before.
+/// Reach of a contact that lasts. It moves with the bodies: its point is at most this (m), plus so many times the slip
+/// in a step, away from its friction anchor of the step before.
 inline constexpr double lasting_reach = 1e-3, lasting_slips = 2;
 
 namespace law {
@@ -32,8 +32,8 @@ inline namespace MURO_ISA {
 using contact_geometry::least_spin;
 using lane::any, lane::max, lane::min, lane::select, lane::sqrt, lane::V3;
 
-/// tanh x for 0 <= x <= 2 max_phase_step, to some units in the last place: Lambert's continued fraction
-/// x / (1 + x^2 / (3 + x^2 / (5 + ...))), ten terms of it.
+/// Returns tanh x for 0 <= x <= 2 max_phase_step, to some units in the last place: ten terms of Lambert's continued
+/// fraction x / (1 + x^2 / (3 + x^2 / (5 + ...))).
 template <class S>
 MURO_INLINE S tanh(S x) {
   const S y = x * x;
@@ -42,15 +42,15 @@ MURO_INLINE S tanh(S x) {
   return x * above / below;
 }
 
-/// The spring and damper along the normal, with everything that does not change from contact to contact worked out.
+/// The spring and damper along the normal. Values that are equal for all contacts are computed once.
 template <class S>
 struct NormalLaw {
   Stiffness stiffness;
   S zeta;            ///< damping ratio, at most max_damping_ratio
-  S load;            ///< of the bodies, >= 0
+  S load;            ///< load of the bodies, >= 0
   S spring, damper;  ///< 1/s^2, 1/s
-  S soft;            ///< 1/s^2: of the spring, as softened
-  S lag;             ///< s: the spring alone has the force of both at the depth that the bodies had so much later
+  S soft;            ///< 1/s^2: stiffness of the softened spring
+  S lag;             ///< s: at the depth of the bodies this much later, the spring alone has the force of both
 
   MURO_INLINE NormalLaw(const Stiffness& s, S damping_ratio, S load_of_bodies)
       : stiffness(s), zeta(damping_ratio), load(load_of_bodies) {
@@ -64,7 +64,7 @@ struct NormalLaw {
     soft = S(w * w) * (one + beta) * softening;
   }
 
-  /// Force, >= 0. `depth` in m; `approach`: speed at which it grows, m/s.
+  /// Returns the force, >= 0. `depth`: m; `approach`: speed at which the depth grows, m/s.
   MURO_INLINE S force(S depth, S approach) const {
     const S zero(0), h(stiffness.h);
     const S spring_depth = depth + lag * approach;
@@ -79,7 +79,8 @@ struct NormalLaw {
   }
 
  private:
-  /// The bodies separate within this step: the energy stored in the spring becomes speed, and no more.
+  /// Returns the force if the bodies separate within this step: the energy stored in the spring becomes speed, not
+  /// more.
   [[gnu::noinline, gnu::cold]] static S force_at_separation(NormalLaw own, S spring_depth, S approach) {
     const double w2 = own.stiffness.omega * own.stiffness.omega;
     const S stored = S(w2) * spring_depth * spring_depth;
@@ -87,9 +88,9 @@ struct NormalLaw {
     return select(spring_depth <= S(0), S(0), force);
   }
 
-  /// The contact began within the last step, a time depth / approach ago, and the bodies came this deep without a
-  /// force. The bodies get the energy that they would have, had the contact acted since then; but they do not rebound
-  /// before their time.
+  /// Returns the force if the contact began within the last step, a time depth / approach ago, and the bodies came this
+  /// deep without a force. The bodies get the energy that they would have if the contact had acted since then. But they
+  /// do not rebound too early.
   [[gnu::noinline, gnu::cold]] static S force_at_impact(NormalLaw own, S depth, S approach) {
     const double w = own.stiffness.omega, w2 = w * w;
     const S h(own.stiffness.h), zero(0), one(1), half(0.5);
@@ -106,7 +107,8 @@ struct NormalLaw {
   }
 };
 
-/// m/s: of the ends of a cell about its middle, as far as it counts (see FrictionLaw); `spin`: all of it.
+/// Returns the speed (m/s) of the ends of a cell about its middle, without the part that does not count (least_spin).
+/// `spin`: the whole velocity, m/s. See FrictionLaw.
 template <class S>
 MURO_INLINE S speed_of_ends(const V3<S>& spin) {
   const S square = dot(spin, spin);
@@ -114,20 +116,20 @@ MURO_INLINE S speed_of_ends(const V3<S>& spin) {
   return max(sqrt(square) - S(least_spin), S(0));
 }
 
-/// The spring across the normal, critically damped. The slip adds to its tangential displacement, until the force
-/// reaches its limit; from there on the body slides, and the displacement stays that of the limit at rest
-/// (Cundall and Strack, A discrete numerical model for granular assemblies, Geotechnique 29, 1979). The limit is a
-/// circle, so friction is the same in every direction.
+/// The spring across the normal, critically damped. The slip adds to its tangential displacement until the force
+/// reaches its limit. Then the body slides, and the displacement stays that of the limit at rest (Cundall and Strack, A
+/// discrete numerical model for granular assemblies, Geotechnique 29, 1979). The limit is a circle, so friction is the
+/// same in every direction.
 ///
-/// A point of a patch stands for a cell of the area that touches (see pressure_cells.hpp). Where the patch spins, the
-/// ends of the cell move against its middle, and as long as these move faster than the middle, a part of the cell
-/// slides one way and a part the other: together they do as much less than the limit as the middle is slower than the
-/// ends. That is a damper in series with the spring.
+/// A point of a patch represents a cell of the area that touches (see pressure_cells.hpp). If the patch spins, the ends
+/// of the cell move against its middle. While the ends move faster than the middle, one part of the cell slides one way
+/// and the rest the other way. Their sum is below the limit, in the ratio in which the middle is slower than the ends.
+/// This is a damper in series with the spring.
 template <class S>
 struct FrictionLaw {
   S spring, damper;  ///< 1/s^2, 1/s
   S compliance;      ///< s^2: displacement by force
-  S held;            ///< 1/s: what the force changes by within a step with the slip
+  S held;            ///< 1/s: change of the force within a step, per slip
   double h;          ///< s
 
   MURO_INLINE FrictionLaw(const Stiffness& s, S load) {
@@ -141,15 +143,15 @@ struct FrictionLaw {
     held = damper + S(h) * spring;
   }
 
-  /// Force on the body that moves with `slip` (m/s) over the other. `displacement` (m) includes the path of the last
-  /// step; `most`: the limit, m/s^2; `spin`: m/s, see speed_of_ends().
+  /// Returns the force on the body that moves with `slip` (m/s) over the other. `displacement` (m) includes the path of
+  /// the last step; `most`: the limit, m/s^2; `spin`: m/s, see speed_of_ends().
   MURO_INLINE V3<S> force(V3<S>& displacement, const V3<S>& slip, S most) const {
     V3<S> f = -(spring * displacement) - damper * slip;
     const S size2 = dot(f, f);
     slide(f, displacement, size2 > most * most, most, size2);
     return f;
   }
-  /// The same bits as above where there is no spin.
+  /// Returns the force of a patch that spins. Without spin, it has the same bits as above.
   MURO_INLINE V3<S> force(V3<S>& displacement, const V3<S>& slip, S most, S spin) const {
     V3<S> f = -(spring * displacement) - damper * slip;
     const S limit = most + held * spin, size2 = dot(f, f);
@@ -165,7 +167,7 @@ struct FrictionLaw {
   }
 
  private:
-  /// What has reached its limit. `size2`: the square of its force before.
+  /// Limits the force in the lanes that slide, and sets their displacement. `size2`: the square of the force before.
   template <class M>
   MURO_INLINE void slide(V3<S>& f, V3<S>& displacement, M slides, S most, S size2) const {
     if (!any(slides)) return;

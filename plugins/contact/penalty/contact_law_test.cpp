@@ -10,7 +10,7 @@ namespace {
 
 using NormalLaw = law::NormalLaw<double>;
 
-/// Across the normal: muro::penalty::law in Eigen's vectors.
+/// Returns the force across the normal: muro::penalty::law with Eigen's vectors.
 Vec3 friction_force(const Stiffness& s, double load, Vec3& displacement, const Vec3& slip, double most) {
   lane::V3<double> spring{displacement.x(), displacement.y(), displacement.z()};
   const lane::V3<double> f = law::FrictionLaw<double>(s, load).force(spring, {slip.x(), slip.y(), slip.z()}, most);
@@ -18,8 +18,8 @@ Vec3 friction_force(const Stiffness& s, double load, Vec3& displacement, const V
   return {f.x, f.y, f.z};
 }
 
-/// A body of effective mass 1 that flies against a wall at 1 m/s, with the impact at `phase` (0..1) of a step.
-/// Returns the speed with which it leaves.
+/// Lets a body of effective mass 1 fly against a wall at 1 m/s, with the impact at `phase` (0..1) of a step. Returns
+/// the speed with which it leaves.
 double rebound(double restitution, const Stiffness& s, double phase, double load = 1) {
   const NormalLaw law(s, damping_ratio_of(restitution), load);
   double x = phase * s.h, v = -1;
@@ -96,7 +96,7 @@ TEST(ContactLaw, NeverPulls) {
 }
 
 TEST(ContactLaw, StaysStableUnderAnyLoad) {
-  // A mode `load` times stiffer than a contact knows, against a restoring force in both directions, comes to rest.
+  // A mode that is `load` times stiffer than a contact knows, with a restoring force in both directions, comes to rest.
   const Stiffness s{600, 1e-3};
   for (const double e : {0.0, 0.5, 0.95})
     for (const double load : {1.0, 3.0, 12.0, 100.0}) {
@@ -125,7 +125,7 @@ TEST(ContactLaw, FrictionNeverExceedsTheConeInAnyDirection) {
       force = friction_force(s, 1, displacement, slip, 5);
     }
     EXPECT_NEAR(force.norm(), 5, 1e-12);
-    EXPECT_NEAR(force.dot(slip), -5 * 0.3, 1e-12);  // straight against the slip: a cone, no pyramid
+    EXPECT_NEAR(force.dot(slip), -5 * 0.3, 1e-12);  // straight against the slip: a cone, not a pyramid
   }
 }
 
@@ -155,7 +155,7 @@ TEST(ContactLaw, ASlidingBodyStopsAfterTheTextbookDistance) {
     x += v * s.h + 0.5 * a * s.h * s.h;
     v += a * s.h;
   }
-  EXPECT_NEAR(x.norm(), 5.0 / (2 * 4), 0.004);  // v^2 / (2 a), to the way that it takes to build the force up
+  EXPECT_NEAR(x.norm(), 5.0 / (2 * 4), 0.004);  // v^2 / (2 a), except for the way until the force has built up
   EXPECT_NEAR(x.y() / x.x(), 0.5, 1e-9);
   EXPECT_LT(v.norm(), 1e-9);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernel knows of the contacts of a robot, once for all robots that touch alike: so it stays in a near cache.
+// Contacts of robots for the kernel, stored once for all robots that touch alike. So they stay in a near cache.
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 
 namespace muro::penalty {
 
-/// The patterns that came first; what is in here does not change until clear(). Any thread may look up and add.
+/// The first patterns. A stored pattern does not change until clear(). Any thread may search and add.
 class ContactPatterns {
  public:
   static constexpr std::size_t most = 64;
 
   void clear() { count_ = 0; }
 
-  /// The same contacts, in here; `own` itself where no place is left for them.
+  /// Returns the stored contacts that are equal to `own`; `own` itself if no place is free.
   const KernelContact* shared(std::span<const KernelContact> own) {
     const std::uint64_t hash = hash_of(own);
     const std::size_t seen = count_.load(std::memory_order_acquire);
@@ -44,7 +44,7 @@ class ContactPatterns {
   };
 
   static std::uint64_t hash_of(std::span<const KernelContact> contacts) {
-    constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15;  // 2^64 times that: spreads bits
+    constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15;  // 2^64 times that ratio; spreads bits
     std::uint64_t hash = contacts.size();
     for (const KernelContact& c : contacts) {
       const auto places = std::uint64_t(c.anchors_begin) | std::uint64_t(c.anchors_end) << 8 |

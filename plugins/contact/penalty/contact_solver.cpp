@@ -11,7 +11,7 @@ namespace {
 
 using Block = BlockSystem::Block;
 
-/// A damper of `across`, and of `along` in the direction of `n`.
+/// Returns the matrix of a damper of `across`, and of `along` in the direction of `n`.
 MURO_INLINE Mat3 damper(double along, double across, const Vec3& n) {
   const Vec3 more = (along - across) * n;
   Mat3 k;
@@ -42,21 +42,22 @@ void add_at_levers(Block& block, const Mat3& k, const Vec3& a, const Vec3& b) {
   add(3, turned);
 }
 
-/// Of the limit of friction: of what it holds, and of itself, since forces are brought into the cone at the end.
+/// Tolerances, as parts of the limit of friction: of friction that holds, and of the limit itself, since forces are
+/// brought into the cone at the end.
 constexpr double precision = 2e-3, near = 1e-3;
-/// m/s: of the solution of a linear system, and of what changes no force that counts.
+/// Tolerances, m/s: of the solution of a linear system, and of a change that changes no force noticeably.
 constexpr double least_speed = 1e-8, slight = 1e-6;
 
 MURO_INLINE Vec3 along(const Vec3& v, const Vec3& n) { return n.dot(v) * n; }
 
-/// At a lever from the centre of mass.
+/// Returns the velocity of a body at a lever from the centre of mass.
 MURO_INLINE Vec3 velocity_at(const BlockSystem::Vector& body, const Vec3& lever) {
   const double x = body[3], y = body[4], z = body[5];
   return {body[0] + (y * lever.z() - z * lever.y()), body[1] + (z * lever.x() - x * lever.z()),
           body[2] + (x * lever.y() - y * lever.x())};
 }
 
-/// The part of a force that its limit leaves.
+/// Returns the ratio of a force within its limit to the whole force.
 MURO_INLINE double part_within(const Vec3& force, double most) {
   const double size = force.norm();
   return size > most ? most / size : 1;
@@ -98,7 +99,8 @@ void ContactSolver::hold(bool body, bool other) {
   c.moves_other = !other;
 }
 
-/// Of the own point over the other, m/s: along the normal that of the point, across it that of where friction acts.
+/// Returns the velocity (m/s) of the own point over the other: along the normal that of the point, across it that of
+/// the place where friction acts.
 Vec3 ContactSolver::velocity_in(const SolverContact& c, const std::vector<BlockSystem::Vector>& velocities) {
   const bool has_cell = !c.cell.isZero(0);
   const auto of = [&](const BlockSystem::Vector& body, const Vec3& lever, bool moves) __attribute__((always_inline))
@@ -113,12 +115,12 @@ Vec3 ContactSolver::velocity_in(const SolverContact& c, const std::vector<BlockS
   return c.other == SolverContact::none ? velocity : velocity - of(velocities[c.other], c.other_lever, c.moves_other);
 }
 
-/// Its force and how that changes, at the velocities so far.
+/// Adds the force of a contact and its change with velocity, at the velocities so far.
 void ContactSolver::add_terms(SolverContact& c) {
   c.impulse.setZero();
   c.yields.setZero();
   if (!c.pushes && c.hold == 0) return;
-  constexpr double straight = 0.98;  // of what does not change along the slip: a system is never singular
+  constexpr double straight = 0.98;  // part of the damping that is removed along the drag: a system is never singular
   const Vec3& velocity = c.velocity;
   const auto [load, drag] = reaction_at(c, velocity);
   const double normal = c.pushes ? step_ : 0, tangential = step_ * c.hold;
@@ -137,7 +139,7 @@ void ContactSolver::add_terms(SolverContact& c) {
   add_damper(c, k - pressure, c.impulse - push, c.cell, c.moves_body, c.moves_other);
 }
 
-/// To the linear system: `k` (N s/(m/s)) and the impulse at rest (N s), at `arm` (m) from the point.
+/// Adds to the linear system: `k` (N s/(m/s)) and the impulse at rest (N s), at `arm` (m) from the point.
 void ContactSolver::add_damper(const SolverContact& c, const Mat3& k, const Vec3& impulse, const Vec3& arm,
                                bool moves_body, bool moves_other) {
   const Vec3 own = c.lever + arm, other = c.other_lever + arm;
@@ -169,13 +171,13 @@ ContactSolver::Reaction ContactSolver::reaction_at(const SolverContact& c, const
   return {c.push - c.along * away, c.spring + c.across * (velocity - away * c.normal)};
 }
 
-/// Whether a contact does something else than what was taken for granted. `hold`: what it does across.
+/// Whether a contact differs from the assumptions of the linear system. `hold`: its ratio of friction.
 bool ContactSolver::differs(const SolverContact& c, const Reaction& r, double hold) {
   return ((r.load > 0) != c.pushes && std::abs(r.load) > c.along * slight) ||
          (c.has_friction_in_it() && std::abs(hold - c.hold) * r.drag.norm() > precision * c.limit + c.across * slight);
 }
 
-/// Whether all contacts do at the solution of the linear system what it takes for granted, so that it is the minimum.
+/// Whether all contacts at the solution of the linear system agree with its assumptions, so that it is the minimum.
 bool ContactSolver::is_solution() const {
   return std::all_of(contacts_.begin(), contacts_.end(), [](const SolverContact& c) {
     if (c.only_damps) return true;
@@ -184,8 +186,8 @@ bool ContactSolver::is_solution() const {
   });
 }
 
-/// What the contact does at the velocities so far. Returns whether that is something else than what was taken for
-/// granted.
+/// Updates the contact for the velocities so far. Returns whether it differed from the assumptions of the linear
+/// system.
 bool ContactSolver::revise(SolverContact& c) {
   if (c.only_damps) return false;
   const Reaction r = reaction_at(c, c.velocity);
@@ -197,7 +199,8 @@ bool ContactSolver::revise(SolverContact& c) {
   return changed;
 }
 
-/// J: how the sum of all potentials changes from the velocities so far towards the solution, at `part` of the way.
+/// Returns the change (J) of the sum of all potentials along the way from the velocities so far to the solution, at
+/// `part` of the way.
 double ContactSolver::slope_at(double part) const {
   double slope = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -212,8 +215,8 @@ double ContactSolver::slope_at(double part) const {
   return slope;
 }
 
-/// Goes towards the solution of the linear system, about as far as potentials fall. Returns whether that is all the
-/// way.
+/// Moves the velocities towards the solution of the linear system, about as far as potentials fall. Returns whether
+/// that is the whole way.
 bool ContactSolver::approach_solution() {
   for (SolverContact& c : contacts_) c.way = velocity_in(c, solution_) - c.velocity;
   if (is_solution()) {
@@ -221,7 +224,7 @@ bool ContactSolver::approach_solution() {
     for (SolverContact& c : contacts_) c.velocity += c.way;
     return true;
   }
-  constexpr double flat = 0.1;  // of the slope at the start: as good as the minimum
+  constexpr double flat = 0.1;  // of the slope at the start: close enough to the minimum
   double part = 1;
   const double most = -flat * slope_at(0);
   if (most > 0 && slope_at(1) > most) {
@@ -238,8 +241,8 @@ bool ContactSolver::approach_solution() {
   return part == 1;
 }
 
-/// Newton's method, with the limits that friction has. `left`: of all linear systems that may be solved in a step.
-/// Returns whether it has found the minimum.
+/// Runs Newton's method with the present limits of friction. `left`: number of linear systems that may still be solved
+/// in this step. Returns whether it has found the minimum.
 bool ContactSolver::find_velocities(int most_iterations, int& left) {
   double mass = 0;
   for (const Body& b : bodies_) mass += b.mass(0, 0);
@@ -254,8 +257,8 @@ bool ContactSolver::find_velocities(int most_iterations, int& left) {
   return !changed;
 }
 
-/// How much of what the last change of limits has made of loads the next one leaves out, so that both together lead
-/// as near as they can to limits that belong to their loads.
+/// Returns the part of the last change of limits found that the next limits take back, so that both changes together
+/// come as near as they can to limits that belong to their loads.
 double ContactSolver::part_of_last_change() const {
   constexpr double most = 0.5;
   double change = 0, square = 0;
@@ -267,7 +270,8 @@ double ContactSolver::part_of_last_change() const {
   return square > 0 ? std::clamp(change / square, 0.0, most) : 0;
 }
 
-/// Takes `part` of what limits of friction are by now. Returns whether that of some contact that slides has changed.
+/// Moves limits of friction by `part` towards their present values. Returns whether the limit of a sliding contact has
+/// changed.
 bool ContactSolver::revise_limits(double part) {
   bool changed = false;
   const double back = part_of_last_change();
@@ -285,7 +289,7 @@ bool ContactSolver::revise_limits(double part) {
   return changed;
 }
 
-/// What the last linear system says, so that it keeps momenta and moves bodies as it was found to, within the cone.
+/// Finds the force from the last linear system, within the cone. So it keeps momenta and moves bodies as found.
 void ContactSolver::find_force(SolverContact& c) const {
   const Vec3 velocity = velocity_in(c, solution_);
   c.away = c.normal.dot(velocity);

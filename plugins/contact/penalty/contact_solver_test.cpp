@@ -9,7 +9,7 @@
 namespace muro::penalty {
 namespace {
 
-/// A random system of bodies with couplings, sparse and dense, that is like one of bodies on dampers.
+/// A random system of bodies with couplings, sparse and dense, similar to one of bodies on dampers.
 struct RandomSystem {
   BlockSystem sparse;
   Eigen::MatrixXd dense;
@@ -97,7 +97,7 @@ SolverContact held_contact(double mass, double depth, double friction) {
 }
 
 TEST(ContactSolver, AHeavyBodyOnALightOneIsCarried) {
-  // Both at the depth that carries what is above: nothing moves, and forces are the weights.
+  // Both contacts have the depth that carries the load above: nothing moves, and forces are the weights.
   ContactSolver solver;
   solver.start(solver_step);
   const double below = 0.01, above = 10, all = below + above, g = 9.81;

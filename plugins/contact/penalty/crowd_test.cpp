@@ -30,7 +30,7 @@ struct Crowd : ContactScene {
     add_rovers(1.5, 9);
     start();
   }
-  /// Tells all of them how to drive. Not part of a snapshot.
+  /// Sets the wheel speeds of all rovers, which are not part of a snapshot.
   void drive() {
     for (std::size_t k = 0; k < robots.size(); ++k)
       wheels("r" + std::to_string(k), 3 + double(k % 5), 4 - double(k % 3));
@@ -81,7 +81,7 @@ TEST(Crowd, GoesOnFromSnapshotsToTheSameBits) {
   crowd.expect_the_same_poses(expected);
 }
 
-/// Allocations of the same second, the second time. The first step after a restore starts the algorithms.
+/// Returns the allocations in a second that is run again. The first step after a restore starts the algorithms.
 std::uint64_t allocations_when_warm(Crowd& crowd) {
   const Snapshot start = crowd.snapshot();
   crowd.drive();

@@ -11,16 +11,17 @@
 
 namespace muro::penalty {
 
-/// The tangential displacement of a friction spring; found again by what it belongs to (kept_contact.hpp).
+/// The tangential displacement of a friction spring. It is found again by the pair and point of its contact
+/// (kept_contact.hpp).
 struct FrictionAnchor {
   std::uint64_t pair = 0;
   Vec3 point = Vec3::Zero();         ///< m, world
   Vec3 displacement = Vec3::Zero();  ///< m, world: tangential
 };
-/// What few anchors have beside that.
+/// Further data, which only few anchors have.
 struct AnchorDetail {
   double overlap = 0;       ///< m, see overlap.hpp
-  Vec3 way = Vec3::Zero();  ///< m, world: of the point in the last step, where it moves over a single body
+  Vec3 way = Vec3::Zero();  ///< m, world: way of the point in the last step, if it moves over a single body
 };
 
 using contact_geometry::pair_of, contact_geometry::previous;
@@ -41,16 +42,17 @@ inline constexpr Key<AnchorDetail> anchor_details{
 inline constexpr Key<std::int64_t> last_run{"contact.time", "ns",
                                             "on the world object: when contact ran last; -1: never"};
 
-/// The anchors of a robot. What most of them do not have lies apart, so that steps of most robots do not touch it.
+/// The anchors of a robot. Details are stored apart, because most anchors have none, and steps of most robots do not
+/// touch them.
 class Anchors {
  public:
   Anchors() = default;
   Anchors(ListOut<FrictionAnchor> list, ListOut<AnchorDetail> details) : list_(list), details_(details) {}
 
   std::span<FrictionAnchor> operator*() const { return *list_; }
-  /// One for each anchor, or none: all are 0.
+  /// Returns one for each anchor, or none if all are 0.
   std::span<AnchorDetail> details() const { return *details_; }
-  /// Of one of the list.
+  /// Returns the detail of an anchor of the list.
   AnchorDetail detail_of(const FrictionAnchor& anchor) const {
     const auto all = *details_;
     return all.empty() ? AnchorDetail{} : all[std::size_t(&anchor - (*list_).data())];

@@ -14,7 +14,7 @@ namespace {
 
 Vec3 spin_by(const ImpactBody& body, const Vec3& torque) { return vector_of(body.mobility.inertia * plain(torque)); }
 
-/// Twice the kinetic energy that the push gives to bodies at rest.
+/// Returns twice the kinetic energy that the push gives to bodies at rest.
 double energy_of(const Push& push, const ImpactBody& self, const ImpactBody* other) {
   const auto of = [&](const ImpactBody& body, const Vec3& torque) {
     return body.mobility.mass * push.force.squaredNorm() + torque.dot(spin_by(body, torque));
@@ -22,14 +22,14 @@ double energy_of(const Push& push, const ImpactBody& self, const ImpactBody* oth
   return of(self, push.torque) + (other ? of(*other, push.other_torque) : 0);
 }
 
-/// How a push changes the velocity of `self` over the other at a point.
+/// Returns the change of the velocity of `self` over the other at a point, by a push.
 Vec3 velocity_by(const Push& push, const ImpactPoint& p, const ImpactBody& self, const ImpactBody* other) {
   Vec3 change = self.mobility.mass * push.force + spin_by(self, push.torque).cross(p.lever);
   if (other) change += other->mobility.mass * push.force + spin_by(*other, push.other_torque).cross(p.other_lever);
   return change;
 }
 
-/// Returns what the impulses along the normals do.
+/// Finds the impulses along the normals and returns their sum.
 Push resolve_normals(std::span<ImpactPoint> points, const ImpactBody& self, const ImpactBody* other) {
   Push unit, push;
   double work = 0, restitution = 0;
@@ -73,7 +73,7 @@ void resolve_friction(std::span<ImpactPoint> points, const Push& normals, const 
   }
 }
 
-/// Inverse of what a body weighs against an impulse at the end of a lever, 1/kg.
+/// Returns the inverse effective mass of a body for an impulse at the end of a lever, 1/kg.
 Mat3 inverse_mass_at(const ImpactBody& body, const Vec3& lever) {
   const Mat3 arm = (Mat3() << 0, -lever.z(), lever.y(), lever.z(), 0, -lever.x(), -lever.y(), lever.x(), 0).finished();
   Mat3 turning;
@@ -81,16 +81,16 @@ Mat3 inverse_mass_at(const ImpactBody& body, const Vec3& lever) {
   return body.mobility.mass * Mat3::Identity() - arm * turning;
 }
 
-/// The way of an impulse at one point while its part along the normal grows (Routh, Dynamics of a System of Rigid
-/// Bodies, 1905, chapter V): on the cone against the slip, until that ends; from there on it sticks, or slides on where
-/// the cone is too narrow for that.
+/// The path of an impulse at one point while its part along the normal grows (Routh, Dynamics of a System of Rigid
+/// Bodies, 1905, chapter V). It is on the cone, against the slip, until the slip ends. Then the point sticks, or slides
+/// on if the cone is too narrow to stick.
 class ImpulsePath {
  public:
   ImpulsePath(const Mat3& inverse_mass, const Vec3& normal, double friction)
       : inverse_mass_(inverse_mass), normal_(normal), friction_(friction), held_(held_direction()) {}
 
-  /// From `velocity` (m/s, of the own point over the other) until the points part with `parting` (m/s). None where no
-  /// impulse parts them.
+  /// Returns the impulse from `velocity` (m/s, of the own point over the other) until the points part with `parting`
+  /// (m/s). Returns nothing if no impulse parts them.
   std::optional<Vec3> impulse(const Vec3& velocity, double parting) const {
     constexpr int most_turns = 200;
     constexpr double no_slip = 1e-9;  // of the speed
@@ -114,18 +114,18 @@ class ImpulsePath {
 
  private:
   Vec3 across(const Vec3& v) const { return v - normal_ * normal_.dot(v); }
-  /// N s, along the normal: how long this direction of the slip may be taken for that of a piece of the path. `all`: so
-  /// long would be all of it.
+  /// Returns the impulse along the normal (N s) for which this direction of the slip may be used as a piece of the
+  /// path. `all`: impulse of the whole path in this direction.
   double lasts(const Vec3& slip, const Vec3& direction, double all) const {
     constexpr int pieces = 64;
     const Vec3 change = across(inverse_mass_ * direction), unit = slip.normalized();
     const double along = change.dot(unit);
     double most = along < 0 ? -slip.norm() / along : std::numeric_limits<double>::infinity();
-    if ((change - along * unit).norm() > 1e-9 * change.norm())  // it turns
+    if ((change - along * unit).norm() > 1e-9 * change.norm())  // the slip turns
       most = std::min(most, all / pieces);
     return most;
   }
-  /// Of what does not slide: such that it sticks, or on the cone in that direction.
+  /// Returns the direction of the impulse without slip: such that the point sticks, or on the cone in that direction.
   Vec3 held_direction() const {
     const Vec3 u = normal_.unitOrthogonal(), v = normal_.cross(u);
     Eigen::Matrix<double, 3, 2> plane;
@@ -142,8 +142,8 @@ class ImpulsePath {
   Vec3 held_;
 };
 
-/// One point, where friction and the normal impulse may change each other. Returns false where that leads to no rebound
-/// that gains no energy.
+/// Resolves one point, where friction and the normal impulse may change each other. Returns false if this leads to no
+/// rebound or to a rebound that gains energy.
 bool resolve_point(ImpactPoint& p, const ImpactBody& self, const ImpactBody* other) {
   Mat3 inverse_mass = inverse_mass_at(self, p.lever);
   if (other) inverse_mass += inverse_mass_at(*other, p.other_lever);
@@ -199,7 +199,8 @@ std::optional<TimeOfImpact> impact_of(const StepContext& context, const Contact&
   if (before && (before->point - contact.point).squaredNorm() < reach * reach) return {};
   const double fall = other_falls ? 0 : -context.gravity.dot(contact.normal);
   const std::optional<TimeOfImpact> time = time_of_impact(contact.depth, speed, fall);
-  // Forces that are not known here may have slowed them down, and the path of another impact brought them nearer.
+  // Forces that are not known here may have slowed the bodies down; the path of another impact may have brought them
+  // nearer.
   const double share = other_falls ? 4 : 1.5;
   if (!time || time->approach < context.impact_speed || time->since > share * std::max(elapsed, step)) return {};
   return time;
@@ -209,7 +210,7 @@ ImpactPoint::ImpactPoint(const StepContext& context, const Contact& contact, con
                          const Vec3& relative, const FreeBody& self, const FreeBody* other)
     : at(contact.point),
       normal(contact.normal),
-      // The point goes half way with either surface across them, and with the bodies that move along them.
+      // Across the surfaces, the point has the mean velocity of both; along them, it moves with the bodies.
       point_velocity(other ? Vec3(0.5 * (self.velocity + other->velocity))
                            : Vec3(self.velocity + 0.5 * contact.depth / time.since * contact.normal)),
       lever(contact.point - self.centre + time.since * (self.velocity - point_velocity)),
@@ -254,11 +255,11 @@ void add_impulse(const StepContext& context, double step, const ImpactPoint& poi
   const Vec3 lever = point.at - body.centre + point.since * (body.velocity - point.point_velocity);
   const Vec3 force = impulse / step, path = (point.since + 0.5 * step) * impulse;
   wrench.add_force(force, point.at - body.origin);
-  // with the lever in the middle of the step
+  // the lever is that of the middle of the step
   wrench.torque += (0.5 * step * (point.point_velocity - body.velocity)).cross(force);
   correction.path += path;
   correction.turn += lever.cross(path);
-  // what it falls is no part of the impact
+  // the fall of the body is no part of the impact
   correction.carried += path.cross(point.point_velocity + step * context.gravity);
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Impacts: what two bodies do to each other at the time of impact.
+// Impacts: impulses between two bodies at the time of impact.
 //
-// Newton's law of restitution along the normal, then Coulomb's friction, which stops the slip or does as much as its
-// limit lets it; in a single point by Routh's path. The points of a contact patch act together: along their approach
-// speeds the impulse is that of an exact solution, so that an impact never gains energy, in any number of points.
+// Newton's law of restitution acts along the normal. Then Coulomb's friction stops the slip or reaches its limit. A
+// single point follows Routh's path. The points of a contact patch act together: along their approach speeds the
+// impulse is that of an exact solution. So an impact never gains energy, for any number of points.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +19,14 @@ namespace muro::penalty {
 struct FreeBody {
   FreeBody(const Bodies& bodies, const DynamicBody& base);
 
-  /// A time `since` (s) ago, when no torque acted since then.
+  /// Return values a time `since` (s) ago, if no torque has acted since then.
   law::Mobility<double> mobility_before(double since) const;
   Vec3 spin_before(double since) const;
 
   const MassProperties* mass;
-  Vec3 origin;  ///< m, world: of its base
+  Vec3 origin;  ///< m, world: origin of its base
   Quat orientation;
-  Vec3 centre;          ///< m, world: of mass
+  Vec3 centre;          ///< m, world: centre of mass
   Vec3 velocity, spin;  ///< m/s, of the centre; rad/s
 };
 
@@ -35,43 +35,43 @@ struct ImpactBody {
   law::Mobility<double> mobility;
 };
 
-/// When an impact was, and the speed with which the bodies approached each other then.
+/// Time of an impact, and the speed with which the bodies approached each other then.
 struct TimeOfImpact {
   double since = 0;     ///< s
   double approach = 0;  ///< m/s
 };
-/// Of bodies that overlap by `depth` (m), approach each other with `speed` (m/s) and are accelerated towards each other
-/// by `acceleration` (m/s^2).
+/// Returns the time of impact of bodies that overlap by `depth` (m), approach each other with `speed` (m/s) and are
+/// accelerated towards each other by `acceleration` (m/s^2).
 std::optional<TimeOfImpact> time_of_impact(double depth, double speed, double acceleration);
 
-/// Whether a contact is an impact: it is new, began within the last step, and is faster than contact at rest can
-/// be. `before`: the friction anchor of its pair that is nearest; null for none. `velocity`: of the own point over the
-/// other (m/s); `step`: of the motion (s); `other_falls`: forces move the other body, too.
+/// Returns the time of impact if a contact is an impact: it is new, began within the last step, and is faster than
+/// contact at rest can be. `before`: the nearest friction anchor of its pair; null: none. `velocity`: of the own point
+/// over the other (m/s); `step`: of the motion (s); `other_falls`: forces move the other body, too.
 std::optional<TimeOfImpact> impact_of(const StepContext& context, const Contact& contact, const FrictionAnchor* before,
                                       const Vec3& velocity, double step, bool other_falls);
 
 /// A contact point in an impact.
 struct ImpactPoint {
   ImpactPoint() = default;
-  /// `velocity`: of the own point over the other; `other`: null where no force moves it. Levers and velocities are
-  /// those of the instant of the impact, so that it keeps angular momentum and gains no energy.
+  /// `velocity` (m/s): of the own point over the other; `other`: null if no force moves it. Levers and velocities are
+  /// those at the instant of the impact. So it keeps angular momentum and gains no energy.
   ImpactPoint(const StepContext& context, const Contact& contact, const TimeOfImpact& time, const Vec3& velocity,
               const FreeBody& self, const FreeBody* other);
 
   Vec3 at;                  ///< m, world
   Vec3 normal;              ///< unit, world: the direction in which `self` is pushed
-  Vec3 point_velocity;      ///< m/s: how the point itself moves
+  Vec3 point_velocity;      ///< m/s: velocity of the point itself
   Vec3 lever, other_lever;  ///< m, world: from the centres of mass
   Vec3 velocity;            ///< m/s, of `self` over the other
   double approach = 0;      ///< m/s, > 0
   double since = 0;         ///< s
   double friction = 0, restitution = 0;
-  Vec3 impulse = Vec3::Zero();  ///< N s, on `self`: out
+  Vec3 impulse = Vec3::Zero();  ///< N s, on `self`; out
   const Contact* source = nullptr;
 
-  /// What an impulse (N s) and a torque impulse (N m s, about its centre) of other points of `self` change.
+  /// Adds the velocity by an impulse (N s) and a torque impulse (N m s, about the centre) on `self` in other points.
   void add_motion(const law::Mobility<double>& self, const Vec3& pushed, const Vec3& turned);
-  /// The same of the other body.
+  /// Adds the velocity by impulses on the other body.
   void add_motion_of_other(const law::Mobility<double>& body, const Vec3& pushed, const Vec3& turned);
 };
 
@@ -86,8 +86,8 @@ struct Push {
   }
 };
 
-/// The friction anchor of a contact in an impact: it is far from every point, so that bodies that go on approaching
-/// each other collide anew.
+/// Returns the friction anchor of a contact in an impact. It is far from every point, so that bodies that still
+/// approach each other collide again.
 inline FrictionAnchor anchor_of_impact(std::uint64_t pair) {
   return {.pair = pair, .point = Vec3::Constant(std::numeric_limits<double>::infinity())};
 }
@@ -102,13 +102,13 @@ inline bool was_in_impact(std::span<const FrictionAnchor> before, std::uint64_t 
                      [&](const FrictionAnchor& a) { return a.pair == pair && is_of_impact(a); });
 }
 
-/// The mean time since the impacts of some points, s.
+/// Returns the mean time (s) since the impacts of some points.
 double mean_since(std::span<const ImpactPoint> points);
 
-/// Finds the impulses of the points of one patch. `other`: null where it does not move freely.
+/// Finds the impulses of the points of one patch. `other`: null if it does not move freely.
 void resolve_impact(std::span<ImpactPoint> points, const ImpactBody& self, const ImpactBody* other);
 
-/// Puts what happens in an impact into the list of its robot, as a force in a step (s).
+/// Reports an impact in the list of its robot, as a force over a step (s).
 void tell_impact(const Robot& robot, const ImpactPoint& point, double step);
 
 /// Adds the impulse (N s) on a body to its wrench in a step (s) and to the correction of its path.

@@ -12,8 +12,8 @@ namespace {
 
 using namespace test;
 
-/// Bounces of a ball that falls from `height` (m) on the ground: between them, the time and the height of each bounce
-/// as its free flight tells them, against the geometric series.
+/// Lets a ball fall from `height` (m) and bounce on the ground. Compares the time and the height of each bounce, which
+/// follow from its free flight, with the geometric series.
 void expect_series(double height, double restitution, double rate) {
   ContactScene s;
   s.add_ground(0.5);
@@ -72,8 +72,8 @@ TEST(Impacts, ObliqueOnesSlipOrStickAsCoulombSays) {
 }
 
 TEST(Impacts, OfARodsEndThatSlidesAndThenSticksFollowRouthsPath) {
-  // In the plane, what an impulse (p, 1) at the end does to its velocity; first p = -mu against the slip, then whatever
-  // keeps it from slipping, or mu the other way.
+  // In the plane: change of velocity by an impulse (p, 1) at the end. First p = mu, against the slip; then p keeps the
+  // end from slipping, or is mu the other way.
   constexpr double length = 1, e = 0.5, angle = 0.6, inertia = 1.0 / 12, sideways = 0.8;
   constexpr double radius = 1e-3, fall = 1;
   const double x = 0.5 * length * std::cos(angle), z = -0.5 * length * std::sin(angle) - radius;
@@ -133,7 +133,8 @@ TEST(Impacts, AFlatLandingReboundsWithItsRestitutionAndDoesNotTurn) {
 }
 
 TEST(Impacts, OfATumblingElasticBoxNearlyKeepItsEnergy) {
-  // among six walls; points that come up while a face swings to a wall are left to springs, which give it some
+  // The box is among six walls. Springs act on points that touch while a face swings to a wall; they give it some
+  // energy.
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int trial = 0; trial < 12; ++trial) {

@@ -26,30 +26,30 @@ struct OldAnchors {
     load_rows(places, number, g);
     last_way[k] = {g[0], g[1], g[2]};
   }
-  /// The tangential displacement of the nearest of the first `count`; `way`: from there, m; out.
+  /// Returns the tangential displacement of the nearest of the first `count`. `way`: out, m, from it to `point`.
   MURO_INLINE V3<S> nearest(const V3<S>& point, int count, V3<S>& way) const {
     V3<S> best = at[0];
     const V3<S> found = of_nearest(displacement, point, count, best);
     way = point - best;
     return found;
   }
-  /// The way of the nearest in the step before.
+  /// Returns the way of the nearest anchor in the step before.
   MURO_INLINE V3<S> way_of_nearest(const V3<S>& point, int count) const {
     V3<S> best = at[0];
     return of_nearest(last_way, point, count, best);
   }
-  /// What the nearest has of `values`. `best`: the first anchor; out: the nearest.
+  /// Returns the element of `values` of the nearest anchor. `best`: in, the first anchor; out, the nearest.
   MURO_INLINE V3<S> of_nearest(const V3<S> (&values)[n], const V3<S>& point, int count, V3<S>& best) const {
     V3<S> found = values[0];
     for (int k = 1; k < count; ++k) {
-      // on its side of the plane between both
+      // the point is on its side of the plane between both
       const auto nearer = dot(at[k] - best, (point + point) - (at[k] + best)) > S(0);
       found = select(nearer, values[k], found);
       best = select(nearer, at[k], best);
     }
     return found;
   }
-  /// The square of the distance of the nearest, m^2.
+  /// Returns the square of the distance to the nearest anchor, m^2.
   MURO_INLINE S least_distance2(const V3<S>& point, int count) const {
     S least = distance2(point, 0);
     for (int k = 1; k < count; ++k) least = min(distance2(point, k), least);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Overlap that no motion has made: what starts, or is put, into something else.
+// Overlap that no motion has made: bodies that start, or are put, inside other bodies.
 #pragma once
 
 #include <algorithm>
@@ -8,13 +8,13 @@
 
 namespace muro::penalty {
 
-/// m: of new contacts that are less deep, none is as good as what there is.
+/// Smallest overlap of this kind, m. For new contacts that are less deep, the overlap counts as 0.
 inline constexpr double least_overlap = 5e-3;
 
-/// What of the depth of a contact its spring does not see (m). A spring of the whole depth would throw bodies out of
-/// each other; what was there before they moved is taken back at `correcting_speed` instead. `before`: of the
-/// nearest friction anchor of the pair in the step before; null for none. `approach`: speed of the bodies towards each
-/// other (m/s).
+/// Returns the part of the depth of a contact that its spring does not see (m). A spring of the whole depth would throw
+/// bodies out of each other. So overlap that was there before they moved is taken back at `correcting_speed`. `before`:
+/// of the nearest friction anchor of the pair in the step before; null: none. `approach`: speed of the bodies towards
+/// each other (m/s).
 inline double unmoved_overlap(const StepContext& context, const Contact& contact, const AnchorDetail* before,
                               double approach) {
   if (before) return std::clamp(before->overlap - context.correcting_speed * context.elapsed, 0.0, contact.depth);

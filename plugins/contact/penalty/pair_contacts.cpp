@@ -25,7 +25,7 @@ std::size_t PairContacts::begin(const StepContext& context, const std::vector<st
   return robots_.size();
 }
 
-/// With capacity for what most robots need.
+/// Adds records with capacity for the needs of most robots.
 void PairContacts::add_records() {
   const std::size_t known = records_.size();
   records_.resize(2 * robots_.size());
@@ -85,14 +85,15 @@ void PairContacts::set_up(std::uint32_t self) {
   }
 }
 
-/// Whether robot `self` computes the contact: both robots of a pair list it.
+/// Whether robot `self` computes the contact. Both robots of a pair list it, but only one computes it.
 bool PairContacts::computes(std::uint32_t self, std::int32_t other) const {
   if (other == not_dynamic) return true;
   const std::uint64_t mine = bodies_.robots[self].order_key, theirs = bodies_.robots[std::size_t(other)].order_key;
   return mine != theirs ? mine < theirs : self < std::uint32_t(other);
 }
 
-/// Whether robot `self` computes its contacts with a body. `other_robot`: that of the body, if forces on it count.
+/// Whether robot `self` computes its contacts with a body. `other_robot`: out, robot of the body, if forces on it
+/// count.
 bool PairContacts::computes_contacts_with(std::uint32_t self, ObjectId body, std::int32_t& other_robot) {
   other_robot = bodies_.dynamic_robot_of(bodies_[body]);
   if (!contact_algorithm_resolves(*bodies_.robots[self].world, bodies_.world_of(other_robot))) return false;
@@ -106,7 +107,7 @@ bool PairContacts::computes_contacts_with(std::uint32_t self, ObjectId body, std
   return false;
 }
 
-/// Of the list as it is.
+/// Finds the runs of the present list.
 void PairContacts::find_runs(std::uint32_t self) {
   KnownContacts& known = known_[self];
   const Robot& robot = bodies_.robots[self];
@@ -127,7 +128,7 @@ void PairContacts::find_runs(std::uint32_t self) {
   }
 }
 
-/// Of the runs as they are.
+/// Finds the contacts to compute, from the present runs.
 void PairContacts::find_computed(std::uint32_t self) {
   static constexpr double at_rest[6] = {};
   KnownContacts& known = known_[self];
@@ -158,7 +159,7 @@ void PairContacts::find_computed(std::uint32_t self) {
   }
 }
 
-/// Which contacts the robot computes in this step, and how they move.
+/// Finds which contacts the robot computes in this step, and how they move.
 void PairContacts::update_computed(std::uint32_t self) {
   KnownContacts& known = known_[self];
   find_runs(self);
@@ -186,7 +187,7 @@ void PairContacts::update_computed(std::uint32_t self) {
   kernels_.move(known.points.data(), int(known.points.size()), context_.stiffness.h, has_lag);
 }
 
-/// Of lines and faces.
+/// Finds the cells of lines and faces.
 void PairContacts::find_cells(KnownContacts& known) {
   const auto normal = [&](std::size_t i) { return Vec3(Vec3::Map(known.points[i].contact + 3)); };
   const auto belongs = [&](std::size_t first, std::size_t i) {
@@ -223,7 +224,7 @@ void PairContacts::find_patches(std::uint32_t self) {
             [this](std::uint32_t a, std::uint32_t b) { return computes(a, std::int32_t(b)); });
 }
 
-/// Returns the number of the patch.
+/// Adds a contact to its patch. Returns the number of the patch.
 std::uint32_t PairContacts::add_to_patch(Record& me, const Computed& c, const Contact& contact) const {
   const V3 normal = plain(contact.normal);
   auto found = std::find_if(me.patches.begin(), me.patches.end(), [&](const ContactPatch& p) {
@@ -240,7 +241,7 @@ std::uint32_t PairContacts::add_to_patch(Record& me, const Computed& c, const Co
   return std::uint32_t(found - me.patches.begin());
 }
 
-/// The effective mass of a patch, divided among its points.
+/// Returns the effective mass of a patch, divided among its points.
 law::EffectiveMass<double> PairContacts::effective_mass_of(const Mobility& self, const ContactPatch& p) const {
   const law::InverseEffectiveMass<double> middle = p.patch.at_middle(self);
   if (p.other == not_dynamic) return {middle, p.patch.count};
@@ -268,7 +269,7 @@ void PairContacts::find_load(std::uint32_t self) {
   for (std::size_t u = 1; u < me.springs.size(); ++u) me.load += me.springs[u].max_eigenvalue_bound(me.mobilities[u]);
 }
 
-/// What the contacts that a robot computes have kept from the step before.
+/// Recalls what the contacts that a robot computes have kept from the step before.
 void PairContacts::find_springs(std::uint32_t self) {
   static constexpr double no_patch[4] = {};
   Record& me = record(self);
@@ -287,7 +288,7 @@ void PairContacts::find_springs(std::uint32_t self) {
     point.zeta = c.zeta;
     point.patch = no_patch;
     if (c.patch == in_impact) continue;
-    if (any_impacts && point.approach < -context_.impact_speed && was_in_impact(old, c.pair)) {  // it parts
+    if (any_impacts && point.approach < -context_.impact_speed && was_in_impact(old, c.pair)) {  // the bodies part
       c.patch = had_impact;
       continue;
     }
@@ -300,7 +301,7 @@ void PairContacts::find_springs(std::uint32_t self) {
   }
 }
 
-/// Forces in the contacts that a robot computes.
+/// Applies the forces of the contacts that a robot computes.
 void PairContacts::apply_forces(std::uint32_t self) {
   Record& me = record(self);
   KnownContacts& known = known_[self];
@@ -350,7 +351,7 @@ void PairContacts::apply_forces(std::uint32_t self) {
   }
 }
 
-/// Returns the torque. `spring`: as the last step left it.
+/// Applies rolling and spinning resistance. Returns the torque. `spring`: its state after the last step.
 Vec3 PairContacts::resist_turning(std::uint32_t self, ContactPatch& patch, const Contact& contact,
                                   const TurningSpring& spring, double normal_force) {
   const Robot& robot = bodies_.robots[self];
@@ -389,7 +390,7 @@ Vec3 PairContacts::centre_velocity(std::int32_t robot, std::uint32_t body) const
   return u.twist->at(vector_of(mobility(robot, body).centre) - u.pose->position);
 }
 
-/// The force of a contact on both robots.
+/// Applies the force of a contact to both robots.
 void PairContacts::apply_to_pair(const Computed& c, ContactPatch& patch, const Vec3& force, const Vec3& moment,
                                  const Vec3& point) const {
   const DynamicBody& own = bodies_.dynamic_bodies[patch.body];
@@ -400,7 +401,8 @@ void PairContacts::apply_to_pair(const Computed& c, ContactPatch& patch, const V
   patch.reaction.torque -= moment + c.other_lever_shift.cross(force);
 }
 
-/// In the next pass the list gets what others have computed, while these read from here.
+/// Copies the reported contacts. In the next pass, others read the copy while the list gets contacts computed by
+/// others.
 void PairContacts::keep_told(std::uint32_t self) {
   if (!bodies_.tells_contacts) return;
   std::vector<ContactWrench>& told = record(self).told;

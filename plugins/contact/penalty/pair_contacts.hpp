@@ -14,7 +14,7 @@
 namespace muro::penalty {
 
 /// Each robot is processed in five passes, which read the results of earlier passes for other robots. A pass writes
-/// only the data of its robot, one of them those of all robots of its group, so threads may share the robots.
+/// only the data of its robot; one pass writes those of all robots of its group. So threads may share the robots.
 class PairContacts {
  public:
   PairContacts(const Bodies& bodies, Host& host)
@@ -29,22 +29,22 @@ class PairContacts {
     number_in_group_.resize(bodies_.dynamic_bodies.size());
   }
 
-  /// Starts a step with the robots (of Bodies::robots) whose flag is set; who touches one of them and is moved by
-  /// forces has its flag set too. Returns their number.
+  /// Starts a step with the robots (of Bodies::robots) with a set flag. A robot that touches one of them and that
+  /// forces move has its flag set too. Returns the number of robots.
   std::size_t begin(const StepContext& context, const std::vector<std::uint8_t>& flags);
 
   static constexpr int passes = 5;
-  /// `which`: 0 to 4, in this order. `robot`: one of those that begin() took.
+  /// Runs a pass. `which`: 0 to 4, in this order. `robot`: one of those that begin() took.
   void pass(int which, std::uint32_t robot);
-  /// Between passes 1 and 2: which robots carry each other; and the impacts of bodies that are in several, one after
-  /// the other in the order of their times.
+  /// Call it between passes 1 and 2. Finds which robots carry each other, and resolves the impacts of bodies that are
+  /// in several, one after the other in the order of their times.
   void prepare_groups() {
     find_groups();
     resolve_in_turns();
   }
-  /// After the passes: what they do to robots that no force moves, for who reads it.
+  /// Call it after the passes. Reports contacts to robots that no force moves, if something reads them.
   void tell_kinematic_robots() const;
-  /// All passes, for all of them.
+  /// Runs all passes for all robots.
   void run() {
     for (int which = 0; which < passes; ++which) {
       if (which == 2) prepare_groups();
@@ -72,19 +72,19 @@ class PairContacts {
   };
   /// A contact in an impact.
   struct ImpactContact {
-    std::uint32_t patch = 0;  ///< in Record::impact_patches
+    std::uint32_t patch = 0;  ///< index in Record::impact_patches
     ImpactPoint point;
   };
 
   /// A contact patch between a dynamic body of a robot and something else.
   struct ContactPatch {
-    Patch patch;                   ///< from the centre of the body
-    std::uint32_t body;            ///< of the robot, in Bodies::dynamic_bodies
+    Patch patch;                   ///< seen from the centre of the body
+    std::uint32_t body;            ///< body of the robot, index in Bodies::dynamic_bodies
     std::int32_t other;            ///< in Bodies::robots, or not_dynamic
-    std::uint32_t other_body = 0;  ///< in Bodies::dynamic_bodies, of a robot
+    std::uint32_t other_body = 0;  ///< index in Bodies::dynamic_bodies, if it is a robot
     std::uint32_t model;           ///< of the other
     law::EffectiveMass<double> effective_mass{};
-    double load = 0;  ///< of both bodies; behind the effective mass, as PairPoint::patch wants it
+    double load = 0;  ///< of both bodies; after the effective mass, as PairPoint::patch expects it
     bool has_load = false;
     Vec3 velocity = Vec3::Zero(), other_velocity = Vec3::Zero();  ///< m/s, of the centres of two robots
     Wrench reaction{};                                            ///< on the other's body
@@ -92,56 +92,56 @@ class PairContacts {
   /// Adjacent contacts with one body.
   struct Run {
     ObjectId other;
-    std::uint32_t end;                       ///< behind the last, in the list
-    bool is_computed = false;                ///< by this robot
-    std::int32_t other_robot = not_dynamic;  ///< in Bodies::robots, if forces on it count
+    std::uint32_t end;                       ///< place after the last one, in the list
+    bool is_computed = false;                ///< this robot computes them
+    std::int32_t other_robot = not_dynamic;  ///< index in Bodies::robots, if forces on it count
   };
   /// A contact that a robot computes.
   struct Computed {
     std::uint64_t pair;
-    std::uint32_t place;                    ///< in the list
+    std::uint32_t place;                    ///< place in the list
     std::uint32_t body, other_body, model;  ///< as in ContactPatch
     std::int32_t other_robot;               ///< in Bodies::robots, or not_dynamic
     double zeta;                            ///< damping ratio of the normal
     bool is_of_disc;                        ///< see Bodies::is_of_disc
-    std::uint32_t patch = 0;                ///< in Record::patches, or one of the above
-    bool lasts = false;                     ///< it was there in the step before
-    SolvedContact solved{};                 ///< of a group: as kept; when it is solved, as it is to be
-    bool is_exact = false;                  ///< of a group: all that acts on its bodies is known
-    double yield = 0;                       ///< s/kg: of a group, by which its friction gives way where it spins
+    std::uint32_t patch = 0;                ///< index in Record::patches, or one of the constants above
+    bool lasts = false;                     ///< it existed in the step before
+    SolvedContact solved{};                 ///< in a group: as kept from the last step; once solved, as to be kept
+    bool is_exact = false;                  ///< in a group: all that acts on its bodies is known
+    double yield = 0;  ///< s/kg: in a group, speed per force by which its friction gives way to spin
     /// m, see find_lever_shifts
     Vec3 lever_shift = Vec3::Zero(), other_lever_shift = Vec3::Zero();
-    Vec3 way = Vec3::Zero();  ///< m, world: of its point in the last step, where it moves over a single body
+    Vec3 way = Vec3::Zero();  ///< m, world: way of its point in the last step, if it moves over a single body
   };
-  /// What is known of the contacts of a robot as long as their list stands for the same.
+  /// Data about the contacts of a robot. They are valid as long as the list has the same contacts.
   struct KnownContacts {
-    std::uint64_t revision = 0;  ///< of the list
+    std::uint64_t revision = 0;  ///< revision of the list
     std::size_t count = 0;       ///< 0: nothing is known
     bool resist_turning = false;
     std::vector<Run> runs;
     std::vector<Computed> computed;
-    std::vector<PairPoint> points;  ///< as these
+    std::vector<PairPoint> points;  ///< in the order of `computed`
   };
   /// A robot in the present step.
   struct Record {
     std::uint32_t first_body = 0;
     std::vector<Mobility> mobilities;                   ///< of its bodies
-    std::vector<law::SpringStiffness<double>> springs;  ///< that hold them
+    std::vector<law::SpringStiffness<double>> springs;  ///< springs that hold its bodies
     std::vector<ContactPatch> patches;                  ///< of the contacts that it computes
     std::vector<std::uint32_t> owners;                  ///< robots that compute its other contacts, by order key
     std::vector<TurningSpring> old_turning_springs;
     std::vector<ImpactPatch> impact_patches;     ///< of the impacts that it computes
     std::vector<ImpactContact> impact_contacts;  ///< of these patches
     std::vector<ImpactPoint> points;             ///< scratch
-    Push pushed;                                 ///< in the impacts of this step that came before
-    std::vector<ContactWrench> told;             ///< those of its list in which it pushes others; where they are told
-    std::size_t impacts = 0;                     ///< patches in which it is, its own and those of others
+    Push pushed;                                 ///< sum of the earlier impacts of this step
+    std::vector<ContactWrench> told;             ///< contacts of its list in which it pushes others, if reported
+    std::size_t impacts = 0;                     ///< patches that contain it, its own and those of others
     double load = 0;                             ///< its stiffest motion, in units of omega^2
     std::vector<std::uint32_t> touched;          ///< numbers of its bodies with contacts that are solved in a group
     double shared = 1;                           ///< of these, see ApparentMasses::shared_by
-    std::uint32_t group = no_group;              ///< in groups_; none: its contacts are resolved one by one
+    std::uint32_t group = no_group;              ///< index in groups_; no_group: its contacts are resolved one by one
 
-    std::vector<V3> bounced;  ///< N s, N m s about the origin, of each body: by contacts that bounce; empty: none
+    std::vector<V3> bounced;  ///< N s, N m s about the origin: by contacts that bounce, for each body; empty: none
 
     void add_impulse(std::uint32_t body, const Vec3& impulse, const Vec3& point) {
       if (bounced.empty()) bounced.assign(2 * mobilities.size(), V3{0, 0, 0});
@@ -218,16 +218,16 @@ class PairContacts {
   Record& record(std::uint32_t robot) { return records_[record_of_[robot]]; }
   const Record& record(std::uint32_t robot) const { return records_[record_of_[robot]]; }
 
-  /// An impact patch of a body that is in several, in the order of their times.
+  /// An impact patch of a body that is in several. They are sorted by time.
   struct Turn {
     double since;                 ///< s
     std::uint64_t key;            ///< order key of the robot
-    std::uint32_t robot, number;  ///< in Bodies::robots; in its impact_patches
+    std::uint32_t robot, number;  ///< index in Bodies::robots; index in its impact_patches
   };
 
-  /// Robots some of which carry others, and whose contacts are solved together.
+  /// Robots that carry each other. Their contacts are solved together.
   struct Group {
-    std::vector<std::uint32_t> robots;  ///< in Bodies::robots, by order key
+    std::vector<std::uint32_t> robots;  ///< indices in Bodies::robots, by order key
     ContactSolver solver;
   };
 
@@ -235,18 +235,18 @@ class PairContacts {
   Host& host_;
   const PairKernels& kernels_;
   StepContext context_;
-  const std::vector<std::uint8_t>* flags_ = nullptr;  ///< of this step, see begin()
-  std::vector<std::uint32_t> robots_;                 ///< of this step
-  std::vector<std::uint32_t> record_of_;              ///< by robot: in records_, of those of this step
+  const std::vector<std::uint8_t>* flags_ = nullptr;  ///< flags of this step, see begin()
+  std::vector<std::uint32_t> robots_;                 ///< robots of this step
+  std::vector<std::uint32_t> record_of_;              ///< by robot: index in records_, for robots of this step
   std::vector<Turn> turns_;                           ///< scratch
-  std::vector<KnownContacts> known_;                  ///< as Bodies::robots
+  std::vector<KnownContacts> known_;                  ///< in the order of Bodies::robots
   std::vector<Record> records_;                       ///< at least one for each robot of this step
-  std::vector<std::uint32_t> roots_;                  ///< scratch, by record: another of its group
+  std::vector<std::uint32_t> roots_;                  ///< scratch, by record: another record of its group
   std::vector<std::uint8_t> carrying_;                ///< scratch, by record: its group is solved
   std::vector<Group> groups_;                         ///< the first group_count_ are of this step
   std::size_t group_count_ = 0;
   std::atomic<bool> depth_is_told_ = false;
-  std::vector<std::uint32_t> number_in_group_;  ///< of bodies, as Bodies::dynamic_bodies
+  std::vector<std::uint32_t> number_in_group_;  ///< of bodies, in the order of Bodies::dynamic_bodies
 };
 
 }  // namespace muro::penalty

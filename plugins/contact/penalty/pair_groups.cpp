@@ -14,26 +14,26 @@ namespace {
 
 using contact_geometry::load_mean_over, contact_geometry::most_weights, contact_geometry::standard_gravity;
 
-/// Robots whose masses differ by more are solved together.
+/// Robots are solved together if the ratio of their masses is larger.
 constexpr double similar_masses = 3;
-/// A normal that rises more steeply belongs to a contact that carries: 17 degrees, its sine.
+/// Sine of 17 degrees. A normal that rises more steeply belongs to a contact that carries.
 constexpr double rising = 0.3;
 
 /// Whether the motion of the robot leaves its contacts with scenery to this algorithm.
 bool is_resolved_here(const Robot& robot) { return contact_algorithm_resolves(*robot.world, kinematic_world); }
 
-/// Whether all that acts on the robot is known here, beside external wrenches: it is one body, and all its contacts are
+/// Whether all that acts on the robot is known here, except external wrenches: it is one body, and all its contacts are
 /// in its list.
 bool is_known(const Robot& robot) { return robot.is_single_body && (robot.carried_mass || is_resolved_here(robot)); }
 
-/// Whether its joints move as if the others were locked, so that a force on one link does not move another, as at
+/// Whether its joints move as if the others were locked, so that a force on one link does not move another, as in
 /// motion.simplified.
 bool is_decoupled(const Robot& robot) { return !robot.is_single_body && is_resolved_here(robot); }
 
 }  // namespace
 
-/// Whether what the contact does hangs on what else its robots carry. Two robots of one body, alike in mass, that touch
-/// at their sides do not.
+/// Whether the force of the contact depends on what else its robots carry. This is not so for two robots of one body,
+/// of similar mass, that touch at their sides.
 bool PairContacts::carries(std::uint32_t self, const ContactPatch& patch) const {
   if (patch.other == not_dynamic) return false;
   const Robot &own = bodies_.robots[self], &other = bodies_.robots[std::size_t(patch.other)];
@@ -47,7 +47,7 @@ std::uint32_t PairContacts::root_of(std::uint32_t record) {
   return record;
 }
 
-/// Robots that touch belong together, as soon as one of them carries another.
+/// Forms groups. Robots that touch belong together, as soon as one of them carries another.
 void PairContacts::find_groups() {
   const auto count = std::uint32_t(robots_.size());
   roots_.resize(count);
@@ -79,13 +79,13 @@ void PairContacts::find_groups() {
     records_[i].group = records_[root].group;
     groups_[records_[i].group].robots.push_back(robots_[i]);
   }
-  // sums hang on no order of declaration
+  // so sums do not depend on the order of declaration
   for (std::size_t g = 0; g < group_count_; ++g) bodies_.sort_by_order_key(groups_[g].robots);
 }
 
 /// All springs of a group have the frequency of contacts under the weight of all its robots, since any contact may have
-/// to carry it; in a pile, where no contact carries all, under so many times the heaviest. Dampers are critical for the
-/// same mass.
+/// to carry it. In a pile no contact carries all: the weight is at most `most_carried` times that of the heaviest
+/// robot. Dampers are critical for the same mass.
 void PairContacts::solve_group(std::uint32_t number) {
   Group& group = groups_[number];
   group.solver.start(context_.stiffness.h);
@@ -108,7 +108,7 @@ void PairContacts::solve_group(std::uint32_t number) {
   for (const std::uint32_t robot : group.robots) take_forces(robot, found);
 }
 
-/// Which bodies of robots contacts that a robot computes are on.
+/// Records which bodies have contacts that a robot computes.
 void PairContacts::find_touched(std::uint32_t self) {
   for (const Computed& c : known_[self].computed) {
     if (!is_solved(c)) continue;
@@ -117,7 +117,7 @@ void PairContacts::find_touched(std::uint32_t self) {
   }
 }
 
-/// What else than contacts accelerates bodies is their weight. Impacts come first.
+/// Adds the bodies of a robot. Besides contacts, only their weight accelerates them. Impacts come first.
 void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
   Record& me = record(self);
   const Robot& robot = bodies_.robots[self];
@@ -146,8 +146,8 @@ void PairContacts::add_bodies(std::uint32_t self, ContactSolver& solver) {
   }
 }
 
-/// s: over which is learnt how links move otherwise than they seem to. A base that legs carry is many times as heavy as
-/// a foot seems, and follows it later; the longer steps are, the less a foot bears that is not learnt.
+/// Returns the time (s) over which it is learnt how links move otherwise than they seem to. A base that legs carry is
+/// many times as heavy as a foot seems, and follows it later. With longer steps, a foot bears less that is not learnt.
 double PairContacts::mean_over_of(std::uint32_t self) const {
   constexpr double least = 0.3, short_step = 1e-3;  // s
   const Robot& robot = bodies_.robots[self];
@@ -157,9 +157,9 @@ double PairContacts::mean_over_of(std::uint32_t self) const {
   return is_decoupled(robot) && is_free ? least * std::max(1.0, steps * steps) : least;
 }
 
-/// What is kept of a contact. Bodies with joints, and those of engines, are not as heavy as they seem, and more than
-/// their weight acts on them: so contacts part faster than expected, or more slowly. What that is in the mean is known
-/// by then, so that it does not change how deep a contact is at rest.
+/// Recalls what is kept of a contact. Bodies with joints, and those of engines, are not as heavy as they seem, and more
+/// than their weight acts on them. So contacts part faster or more slowly than expected. The mean of this difference is
+/// learnt, so that it does not change how deep a contact is at rest.
 void PairContacts::recall(std::uint32_t self, std::size_t place, Computed& c, double approach, const Contact& contact,
                           double mean_over) const {
   const Robot& robot = bodies_.robots[self];
@@ -168,7 +168,7 @@ void PairContacts::recall(std::uint32_t self, std::size_t place, Computed& c, do
   SolvedContact& now = c.solved;
   now.pair = c.pair, now.point = contact.point;
   now.rebounds = std::max(0.0, now.rebounds - context_.elapsed);
-  // half a period of its spring, and half of that again
+  // three quarters of a period of its spring
   if (!c.lasts && approach > context_.impact_speed && c.zeta < max_damping_ratio)
     now.rebounds = 1.5 * M_PI / context_.stiffness.omega;
   const bool is_exact = c.is_exact =
@@ -180,7 +180,7 @@ void PairContacts::recall(std::uint32_t self, std::size_t place, Computed& c, do
   now.more += std::min(1.0, context_.elapsed / mean_over) * (-approach - now.expected - now.more);
 }
 
-/// Of all contacts that a robot computes. Those that bounce are springs by themselves, and known when the others are
+/// Recalls all contacts that a robot computes. Those that bounce are single springs, and known when the others are
 /// solved.
 void PairContacts::recall_contacts(std::uint32_t self) {
   KnownContacts& known = known_[self];
@@ -206,22 +206,22 @@ bool PairContacts::has_joints(std::int64_t robot) const {
   return robot != not_dynamic && !bodies_.robots[std::size_t(robot)].is_single_body;
 }
 
-/// kg: what links and bodies seem to weigh across the normal, for a point of the patch.
+/// Returns the mass (kg) that links and bodies seem to have across the normal, for a point of the patch.
 double PairContacts::apparent_mass_across(std::uint32_t self, const Computed& c) const {
   const double other = c.other_robot == not_dynamic ? 1 : record(std::uint32_t(c.other_robot)).shared;
   return record(self).patches[c.patch].effective_mass.across / std::max(record(self).shared, other);
 }
 
-/// m: the depth whose spring acts, where all that acts on bodies is known.
+/// Returns the depth (m) whose spring acts, if all that acts on the bodies is known.
 double PairContacts::parted_depth(double depth) const {
   const double omega = context_.omega;
   return contact_geometry::parted_depth(depth, 2 * context_.correcting_speed / omega,
                                         2 * standard_gravity / (omega * omega));
 }
 
-/// Joints may hold a link, and then friction does not move it: what it holds would creep if the link were taken to give
-/// way. So links go on across the normal as they do, and the spring there is that of what links seem to weigh, which is
-/// stable if nothing holds them.
+/// Adds contacts. Joints may hold a link, so that friction does not move it. If the solver let the link give way, a
+/// held load would creep. So the velocity of links across the normal stays as it is. The spring there is that of the
+/// mass that links seem to have, which is stable if nothing holds them.
 void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& solver) {
   const double omega = context_.omega;
   const Record& me = record(self);
@@ -257,7 +257,8 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     const Vec3 displacement = Vec3::Map(point.displacement);
     const bool holds_own = has_joints(self), holds_other = has_joints(c.other_robot),
                is_pressed = holds_own || holds_other;
-    // what moves by itself presses as hard as its contact is stiff: a harder one would be pressed harder
+    // a body that moves on its own presses as hard as its contact is stiff, and a stiffer contact would be pressed
+    // harder
     const bool learns = is_pressed && (c.other_robot != not_dynamic || !bodies_.moves(contact.other));
     const double pressed = learns ? std::min(c.solved.mean_load / standard_gravity, most_weights * mass) : 0;
     const double carried = std::max(part * mass, pressed);
@@ -283,14 +284,14 @@ void PairContacts::add_contacts(std::uint32_t self, double mass, ContactSolver& 
     const double ends = law::speed_of_ends(plain(of_spin));
     c.yield = ends > 0 && s.limit > 0 ? ends / s.limit : 0;
     const double rest =
-        1 / (1 + c.yield * s.across);  // of a spring and damper behind one that gives way, see FrictionLaw
+        1 / (1 + c.yield * s.across);  // of a spring and damper in series with one that gives way, see FrictionLaw
     s.across *= rest;
     s.spring *= rest;
   }
 }
 
-/// Contacts with scenery that the robot's own motion resolves, since they hold its bodies against what comes down on
-/// them: of one body, as they are; of bodies with joints, which answer to loads, as dampers.
+/// Adds contacts with scenery that the robot's own motion resolves, since they hold its bodies against loads from
+/// above: contacts of one body as springs, those of bodies with joints, which react to loads, as dampers.
 void PairContacts::add_supports(std::uint32_t self, double mass, ContactSolver& solver) const {
   const Robot& robot = bodies_.robots[self];
   if (!robot.carried_mass || is_resolved_here(robot)) return;
@@ -316,8 +317,8 @@ void PairContacts::add_supports(std::uint32_t self, double mass, ContactSolver& 
   }
 }
 
-/// Says it once, when a contact rests deeper than contacts should: where engines hold a body, this algorithm
-/// does not know by what.
+/// Reports once that a contact rests deeper than contacts should. If engines hold a body, this algorithm does not know
+/// what holds it.
 void PairContacts::tell_depth(std::uint32_t self, const Contact& contact, const PairPoint& point, const Computed& c) {
   constexpr double too_deep = 2e-3, at_rest = 1e-3;  // m, m/s
   if (contact.depth - point.overlap < too_deep || std::abs(point.approach) > at_rest || !c.lasts) return;
@@ -352,7 +353,7 @@ void PairContacts::take_forces(std::uint32_t self, std::span<const SolverContact
     displacement += (context_.stiffness.h * c.yield) * friction;
     if (!(s.load > 0))
       displacement.setZero();
-    else if (s.hold < 1)  // it slides: as far as the spring does what friction does
+    else if (s.hold < 1)  // it slides: the spring has the force of friction at this displacement
       displacement = -friction * ((2 / context_.omega + context_.stiffness.h) * (1 / s.across - c.yield));
     Vec3::Map(point.displacement) = displacement;
   }

@@ -7,7 +7,7 @@
 
 namespace muro::penalty {
 
-/// Takes the contact up if it is an impact of bodies that move freely; `place`: of the contact among those that the
+/// Records the contact if it is an impact of bodies that move freely. `place`: of the contact among those that the
 /// robot computes.
 bool PairContacts::add_impact(std::uint32_t self, const Contact& contact, std::int32_t other_robot, std::size_t place) {
   const Robot& robot = bodies_.robots[self];
@@ -15,10 +15,11 @@ bool PairContacts::add_impact(std::uint32_t self, const Contact& contact, std::i
   const bool falls = other_robot != not_dynamic;
   if (step == 0 || (falls && bodies_.impact_step_of(other_robot) != step)) return false;
   const Vec3 velocity = bodies_.velocity(contact.self, contact.point) - bodies_.velocity(contact.other, contact.point);
-  if (!(-velocity.dot(contact.normal) > context_.impact_speed)) return false;  // most, before anything is looked up
+  if (!(-velocity.dot(contact.normal) > context_.impact_speed))
+    return false;  // most contacts; it saves the search for anchors
   const FrictionAnchor* const before =
       previous<FrictionAnchor>(*robot.anchors, place, bodies_.pair_of(contact), contact.point);
-  // What does not rebound rests in the step after an impact, whatever comes down on it.
+  // A body that does not rebound rests in the step after an impact, whatever falls on it.
   const bool comes_to_rest = contact.surface.restitution * -velocity.dot(contact.normal) < context_.impact_speed;
   if (comes_to_rest && was_in_impact(*robot.anchors, bodies_.pair_of(contact))) return false;
   const auto time = impact_of(context_, contact, before, velocity, step, falls);
@@ -43,7 +44,7 @@ bool PairContacts::add_impact(std::uint32_t self, const Contact& contact, std::i
   return true;
 }
 
-/// The patches in which it is in this step.
+/// Counts the patches that contain the robot in this step.
 void PairContacts::count_impacts(std::uint32_t self) {
   Record& me = record(self);
   me.impacts = me.impact_patches.size();
@@ -51,8 +52,8 @@ void PairContacts::count_impacts(std::uint32_t self) {
     for (const ImpactPatch& p : record(owner).impact_patches) me.impacts += p.other == std::int32_t(self);
 }
 
-/// Each is resolved with the velocities that those before it have left, so that each keeps the energy that restitution
-/// leaves it.
+/// Resolves each patch with the velocities after the patches before it. So each keeps its energy, except for the part
+/// that restitution takes.
 void PairContacts::resolve_in_turns() {
   turns_.clear();
   for (const std::uint32_t robot : robots_) {
@@ -103,7 +104,7 @@ void PairContacts::resolve_in_turn(std::uint32_t self, std::uint32_t number) {
   }
 }
 
-/// Those that a robot computes.
+/// Applies the impacts that a robot computes.
 void PairContacts::apply_impacts(std::uint32_t self) {
   Record& me = record(self);
   if (me.impacts == 0) return;
@@ -135,7 +136,7 @@ void PairContacts::apply_impacts(std::uint32_t self) {
   }
 }
 
-/// Those that others compute.
+/// Adds the reactions of impacts that others compute.
 void PairContacts::add_impact_reactions(std::uint32_t self) {
   const Robot& robot = bodies_.robots[self];
   for (const std::uint32_t owner : record(self).owners)

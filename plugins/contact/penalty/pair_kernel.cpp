@@ -17,7 +17,7 @@ static_assert(offsetof(PairPoint, ahead) == offsetof(PairPoint, velocity) + 4 * 
               offsetof(PairPoint, moment) == offsetof(PairPoint, force) + 3 * sizeof(double) &&
               offsetof(PairPoint, zeta) == offsetof(PairPoint, displacement) + 4 * sizeof(double));
 
-/// `number(point)` of each point; where there are fewer points than S has values, the first stands in.
+/// Returns `number(point)` of each point. If there are fewer points than S has values, the first is repeated.
 template <class S, class T, class Number>
 MURO_INLINE Places<S, T> places_of(PairPoint* points, int count, const Number& number) {
   Places<S, T> at;
@@ -78,7 +78,7 @@ MURO_INLINE void push_some(PairPoint* points, int count, const Stiffness& stiffn
              {force.x, force.y, force.z, dot(turn, friction)}, used);
 }
 
-/// In packs of eight, and what is left.
+/// Calls `some` for packs of eight points, then for the remaining ones.
 template <class Some>
 MURO_INLINE void each_pack(PairPoint* points, int count, const Some& some) {
   for (int first = 0; first < count; first += 8)

@@ -7,33 +7,33 @@
 
 namespace muro::penalty {
 
-/// One contact. Addresses are those of numbers: of the contact its point, normal, depth and friction; of a pose its
-/// position, of a twist its linear and angular part.
+/// One contact. Addresses point to numbers: point, normal, depth and friction of the contact; position of a pose;
+/// linear and angular part of a twist.
 struct PairPoint {
   const double* contact = nullptr;
   const double *pose = nullptr, *twist = nullptr;              ///< of the own body
-  const double *other_pose = nullptr, *other_twist = nullptr;  ///< of the other
+  const double *other_pose = nullptr, *other_twist = nullptr;  ///< of the other body
   const double* patch = nullptr;  ///< effective mass of its points along and across the normal, the inverse of the
                                   ///< latter, and the load of the bodies
   double lag = 0, other_lag = 0;  ///< see keys::twist_lag
-  double turn[3] = {};  ///< m: slip of the middle of its cell against its own, for 1 rad/s (see pressure_cells.hpp)
-  // what `move` writes
+  double turn[3] = {};  ///< m: slip of the middle of its cell relative to its own, for 1 rad/s (see pressure_cells.hpp)
+  // written by `move`
   double velocity[3];  ///< m/s, of the own point over the other
   double approach;     ///< m/s
-  double ahead;        ///< m: what is to be added to the depth, where poses are ahead of twists
+  double ahead;        ///< m: is added to the depth, if poses are ahead of twists
   double spin;         ///< rad/s: of the own body over the other about the normal
-  // what `push` reads; it writes the displacement and the force
-  double displacement[3];  ///< m: what the friction spring of the step before has; out: that of this step
-  double overlap;          ///< m: what of the depth the spring does not see
+  // read by `push`, which writes the displacement, the force and the moment
+  double displacement[3];  ///< m: of the friction spring in the step before; out: in this step
+  double overlap;          ///< m: part of the depth that the spring does not see
   double zeta;             ///< damping ratio of the normal
   double force[3];         ///< N, on the own body
-  double moment;           ///< N m, on the same about the normal: friction acts in the middle of the cell
+  double moment;           ///< N m, on the own body about the normal: friction acts in the middle of the cell
 };
 
 struct PairKernels {
-  /// Velocities. `with_lag`: any contact has a lag. Each contact gets the same bits as by itself.
+  /// Computes velocities. `with_lag`: any contact has a lag. Each contact gets the same bits as alone.
   void (*move)(PairPoint* points, int count, double h, bool with_lag);
-  /// Forces; `elapsed`: s since the last run. Each contact gets the same bits as by itself.
+  /// Computes forces. `elapsed`: s since the last run. Each contact gets the same bits as alone.
   void (*push)(PairPoint* points, int count, const Stiffness& stiffness, double elapsed);
 };
 MURO_DECLARE_KERNELS(PairKernels, pair_kernels)

@@ -33,7 +33,7 @@ struct Mobility {
   V3<S> centre;          ///< centre of mass, m
 };
 
-/// `mass`: the numbers of MassProperties, in their order.
+/// Returns the mobility in world axes. `mass`: the numbers of MassProperties, in their order.
 template <class S>
 MURO_INLINE Mobility<S> mobility_of(const S (&mass)[mass_numbers], const lane::PoseOf<S>& base) {
   const M3<S> axes = base.orientation.matrix();
@@ -46,7 +46,7 @@ MURO_INLINE Mobility<double> mobility_of(const MassProperties& mass, const lane:
   return mobility_of(numbers, base);
 }
 
-/// Of a point: along the normal, and the sum over both tangential directions. 1/kg.
+/// Inverse effective masses of a point, 1/kg: along the normal, and the sum over both tangential directions.
 template <class S>
 struct InverseEffectiveMass {
   S along, across;
@@ -61,14 +61,13 @@ struct SpringStiffness {
   Symmetric<S> translation = scaled_identity(S(0)), rotation = scaled_identity(S(0));
 
   MURO_INLINE void operator+=(const SpringStiffness& b) { translation += b.translation, rotation += b.rotation; }
-  /// The same in those lanes that the mask has, and none in the others.
+  /// Returns the same in the lanes of the mask, and 0 in the others.
   template <class M>
   MURO_INLINE SpringStiffness where(M mask) const {
     return {translation.where(mask), rotation.where(mask)};
   }
-  /// A bound of the largest eigenvalue of M^-1 K: that of a matrix of two diagonal blocks is at most the
-  /// sum of theirs, and that of a block, which is similar to a symmetric one, at most the root of the trace of its
-  /// square.
+  /// Returns a bound of the largest eigenvalue of M^-1 K. For a matrix of two diagonal blocks, it is at most the sum of
+  /// theirs. For a block, which is similar to a symmetric one, it is at most the root of the trace of its square.
   MURO_INLINE S max_eigenvalue_bound(const Mobility<S>& body) const {
     const V3<S> x = body.inertia * rotation.column_x(), y = body.inertia * rotation.column_y(),
                 z = body.inertia * rotation.column_z();
@@ -77,17 +76,17 @@ struct SpringStiffness {
   }
 };
 
-/// A contact patch: the contact points of one pair of bodies with one normal, which act together.
+/// A contact patch: the contact points of one pair of bodies with one normal. They act together.
 ///
-/// The points of a patch together act with the effective mass at their middle, 1 / (1/m + (r x n) . I^-1 (r x n)), each
-/// with an equal part, so that a box that lands flat on four corners rebounds as a ball does.
+/// The points of a patch have together the effective mass at their middle, 1 / (1/m + (r x n) . I^-1 (r x n)), each an
+/// equal part. So a box that lands flat on four corners rebounds as a ball does.
 template <class S>
 struct Patch {
   V3<S> normal;
   V3<S> origin;                                  ///< m
-  S count{0};                                    ///< of points
-  V3<S> sum{S(0), S(0), S(0)};                   ///< of the points from the origin
-  Symmetric<S> squares = scaled_identity(S(0));  ///< of the products of their coordinates
+  S count{0};                                    ///< number of points
+  V3<S> sum{S(0), S(0), S(0)};                   ///< sum of the points, from the origin
+  Symmetric<S> squares = scaled_identity(S(0));  ///< sums of the products of their coordinates
 
   MURO_INLINE Patch(const V3<S>& normal_of_all, const V3<S>& from) : normal(normal_of_all), origin(from) {}
 
@@ -97,7 +96,7 @@ struct Patch {
     sum += d;
     squares += square(d);
   }
-  /// Adds it in those lanes that the mask has.
+  /// Adds the point in the lanes of the mask.
   template <class M>
   MURO_INLINE void add_where(M mask, const V3<S>& point) {
     const S zero(0);
@@ -106,7 +105,7 @@ struct Patch {
     sum += d;
     squares += square(d);
   }
-  /// The same with another origin.
+  /// Returns the same patch with the origin `centre`.
   MURO_INLINE Patch seen_from(const V3<S>& centre) const {
     const V3<S> shift = origin - centre;
     Patch p(normal, centre);
@@ -115,15 +114,15 @@ struct Patch {
     p.squares = squares + mixed(sum, shift) + count * square(shift);
     return p;
   }
-  /// Of the middle of the points. The origin is the centre of `body`.
+  /// Returns the value at the middle of the points. The origin is the centre of `body`.
   MURO_INLINE InverseEffectiveMass<S> at_middle(const Mobility<S>& body) const {
     const V3<S> r = sum * (S(1) / count), lever = cross(r, normal);
     const S along = dot(lever, body.inertia * lever);
     const S all = body.inertia.trace() * dot(r, r) - dot(r, body.inertia * r);
     return {body.mass + along, S(2) * body.mass + all - along};
   }
-  /// Stiffness of a body whose centre is the origin on springs in the points, each of stiffness `along` the normal and
-  /// `across` it.
+  /// Returns the stiffness of a body on springs in the points. The origin is the centre of the body. Each spring has
+  /// the stiffness `along` the normal and `across` it.
   MURO_INLINE SpringStiffness<S> stiffness(S along, S across) const {
     const S more = along - across;
     return {scaled_identity(count * across) + (count * more) * square(normal),
@@ -131,7 +130,7 @@ struct Patch {
   }
 };
 
-/// Of each point of a patch, kg.
+/// Effective mass of each point of a patch, kg.
 template <class S>
 struct EffectiveMass {
   S along, across, inverse_across;

@@ -20,7 +20,7 @@ Mat3 matrix_of(const law::Symmetric<double>& m) {
   return (Mat3() << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz).finished();
 }
 
-/// As law::Mobility.
+/// A law::Mobility in Eigen's types.
 struct Mobility {
   double mass;
   Mat3 inertia;
@@ -29,7 +29,7 @@ struct Mobility {
   operator law::Mobility<double>() const { return {mass, plain(inertia), plain(centre)}; }
 };
 
-/// Velocity that a unit impulse along `direction` at `point` gives the point, by rigid-body mechanics.
+/// Returns the velocity that a unit impulse along `direction` at `point` gives the point, by rigid-body mechanics.
 Vec3 response(const Mobility& b, const Vec3& point, const Vec3& direction) {
   const Vec3 r = point - b.centre, spin = b.inertia * r.cross(direction);
   return b.mass * direction + spin.cross(r);

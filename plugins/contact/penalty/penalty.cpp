@@ -72,12 +72,12 @@ class Penalty final : public Algorithm {
   }
   void restored() override { start(); }
 
-  /// First, block by block, the robots that touch only scenery, which are nearly all. Then those that touch something
-  /// that moves: in one task if they are few, else block by block.
+  /// Robots that touch only scenery, which are nearly all, come first, block by block. Then come those that touch
+  /// something that moves: in one task if they are few, otherwise block by block.
   std::span<const Phase> phases() const override { return phases_; }
 
   void step(const Step& step, Range range) override {
-    // As stiff as wanted, if the step is short enough.
+    // Contacts are as stiff as wanted, if the step is short enough.
     StepContext context{{std::min(omega_, max_phase_step / step.dt), step.dt},
                         omega_,
                         *last_run_ < 0 ? 0 : 1e-9 * double(step.time - *last_run_),
@@ -94,7 +94,7 @@ class Penalty final : public Algorithm {
     *last_run_ = step.time;
     if (context.stiffness.omega < omega_) report(context.stiffness);
     if (bodies_.tells_kinematic_robots) bodies_.clear_kinematic_lists();
-    constexpr std::size_t few = 12;  // take less time than distributing them to threads
+    constexpr std::size_t few = 12;  // so many robots take less time than their distribution to threads
     const std::size_t count = pair_contacts_->begin(context, scenery_contacts_->remaining());
     many_pairs_ = count > few ? 1 : 0;
     tells_kinematic_robots_ = many_pairs_ != 0 && bodies_.tells_kinematic_robots ? 1 : 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bodies: cases with closed forms, at 1000 Hz and 50 Hz stiffness unless said.
+// Bodies: cases with closed forms, at 1000 Hz and 50 Hz stiffness unless stated.
 #include <gtest/gtest.h>
 #include <cmath>
 
@@ -14,7 +14,8 @@ namespace {
 
 using namespace test;
 
-/// A scene with one robot on a plane that falls by `angle` (rad) towards +x. `lift`: height of the base over the plane.
+/// A scene with one robot on a plane that falls by `angle` (rad) towards +x. `lift`: height of the base above the
+/// plane.
 struct Incline : ContactScene {
   Quat tilt;
   const RobotView* robot;
@@ -37,10 +38,10 @@ TEST(Penalty, ABlockSlidesDownAnInclineAtTheTextbookRate) {
 }
 
 TEST(Penalty, ABlockSticksExactlyUpToTheAngleOfFriction) {
-  // tan 30 deg = 0.57735. The friction springs hold without creep; what is left is round-off.
+  // tan 30 deg = 0.57735. The friction springs hold without creep; the remainder is round-off.
   const auto creep = [](double friction) {
     Incline s(M_PI / 6, friction, block(3, {0.4, 0.3, 0.2}, friction), 0.1);
-    s.run_for(10);  // what it slid while it came to rest on the ground is braked by mu cos - sin only
+    s.run_for(10);  // the slide until it rests on the ground is braked by mu cos - sin only
     const Vec3 before = s.pose(*s.robot).position;
     s.run_for(10);
     return (s.pose(*s.robot).position - before).norm() / 10;
@@ -88,7 +89,7 @@ TEST(Penalty, ABouncingBallMeetsTheGroundAtTheTimesOfItsSeries) {
   ASSERT_EQ(impacts.size(), 6u);
   const double series[] = {0.451524, 1.083657, 1.526150, 1.835895, 2.052717, 2.204492};
   for (int k = 0; k < 6; ++k) {
-    // each touch lasts about half a period; the series has none of that
+    // each touch lasts about half a period, which the series leaves out
     const double late = impacts[std::size_t(k)] - series[k];
     EXPECT_GT(late, -1e-4);
     EXPECT_LT(late, 1e-4 + k * 0.6 / frequency);
@@ -264,7 +265,7 @@ TEST(Penalty, AKinematicRobotPushesAndIsNotPushed) {
   EXPECT_NEAR(s.pose(box).position.x(), 0.8, 2e-3);
 }
 
-/// It rolls over its edges, so its contacts come, go and jump.
+/// The block rolls over its edges, so its contacts begin, end and jump.
 TEST(Penalty, ATumblingBlockGoesTheSameWayFromASnapshotOfAnyStep) {
   test::ContactScene s;
   s.add_ground(0.6);
@@ -273,7 +274,7 @@ TEST(Penalty, ATumblingBlockGoesTheSameWayFromASnapshotOfAnyStep) {
     s.add("block_" + std::to_string(i), test::block(1, {0.3, 0.2, 0.25 + 0.05 * i}, 0.6),
           {{0, double(i), 0.4}, from_rpy(0.3 * i, 0.5, 0.2)}, {{3, 0.2, 1}, {4, 7, 1}});
   s.start();
-  s.verify_access();  // makes each step again behind restored()
+  s.verify_access();  // repeats each step after restored()
   EXPECT_NO_THROW(s.run_for(1.5));
 }
 

@@ -7,7 +7,7 @@
 
 namespace muro::penalty {
 
-/// Coefficient of restitution of the linear spring-damper whose force never pulls, for the damping ratio `zeta`
+/// Returns the coefficient of restitution of a linear spring-damper that never pulls, for the damping ratio `zeta`
 /// (Schwager and Poeschel, Coefficient of restitution and linear-dashpot model revisited, Granular Matter 9, 2007,
 /// their three cases in one: ln e = -2 zeta acos(zeta) / sqrt(1 - zeta^2)).
 inline double restitution_of(double zeta) {
@@ -17,10 +17,11 @@ inline double restitution_of(double zeta) {
   return elementary::exp(-2 * zeta * angle / std::sqrt(std::abs(rest)));
 }
 
-/// Critical damping, e = 0.135. More would make a contact sluggish, and asks for shorter steps.
+/// Critical damping, e = 0.135. More damping would make a contact sluggish and require shorter steps.
 inline constexpr double max_damping_ratio = 1;
 
-/// The damping ratio for a coefficient of restitution from 0 to 1; by bisection, so ask once a material.
+/// Returns the damping ratio for a coefficient of restitution from 0 to 1. Bisection is slow, so call it once a
+/// material.
 inline double damping_ratio_of(double restitution) {
   double low = 0, high = max_damping_ratio;
   if (restitution <= restitution_of(high)) return high;

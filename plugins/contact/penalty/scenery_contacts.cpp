@@ -19,7 +19,7 @@ static_assert(sizeof(Contact) == contact_stride * sizeof(double) && offsetof(Con
               sizeof(AnchorDetail) == way_stride * sizeof(double) && offsetof(AnchorDetail, way) == 8 &&
               sizeof(ContactWrench) == force_stride * sizeof(double));
 
-/// Two adjacent numbers of 4 bytes.
+/// Returns two adjacent numbers of 4 bytes as one.
 std::uint64_t both(const void* first) {
   std::uint64_t value;
   std::memcpy(&value, first, sizeof value);
@@ -28,31 +28,31 @@ std::uint64_t both(const void* first) {
 
 }  // namespace
 
-/// What the kernel is told of contacts of a robot that are not those of the step before.
+/// Input of the kernel for a robot whose contacts are not those of the step before.
 struct SceneryContacts::Plan {
   int count = 0;
   std::uint32_t groups = 0;
   KernelContact contacts[max_contacts];
   std::size_t before_count = 0;
-  FrictionAnchor before[max_contacts];  ///< of the step before, group by group
-  AnchorDetail details[max_contacts];   ///< of these
+  FrictionAnchor before[max_contacts];  ///< anchors of the step before, group by group
+  AnchorDetail details[max_contacts];   ///< details of these anchors
 };
 
-/// By number of contacts, since the kernel takes as long as the robot with the most of them, and by their groups, since
-/// it takes longer where these differ.
+/// Queues by number of contacts, since the kernel takes as long as the robot with the most of them, and by their
+/// groups, since it takes longer if these differ.
 struct SceneryContacts::Queues {
-  static constexpr std::uint32_t sizes = 8, patterns = 8;  // the last size has all with more contacts
+  static constexpr std::uint32_t sizes = 8, patterns = 8;  // the last size is for all larger numbers
 
-  std::uint64_t used = 0;  ///< a bit for each of `by_size` that has been asked for
+  std::uint64_t used = 0;  ///< a bit for each of `by_size` that is in use
   Queue by_size[sizes * patterns];
   Queue changed{};
   alignas(Plan) std::byte plans[8][sizeof(Plan)];  ///< of `changed`; most steps need none, so they are not initialised
 
   Plan& plan(std::uint32_t i) { return *std::launder(reinterpret_cast<Plan*>(plans[i])); }
 
-  /// `groups`: see KernelRobot. Different ones may share a queue, which costs time alone.
+  /// Returns a queue. `groups`: see KernelRobot. Different groups may share a queue, which only costs time.
   Queue& of(std::uint32_t contacts, std::uint32_t groups) {
-    constexpr std::uint32_t golden_ratio = 0x9e3779b1;  // 2^32 times that: spreads bits
+    constexpr std::uint32_t golden_ratio = 0x9e3779b1;  // 2^32 times that ratio; spreads bits
     const std::uint32_t i = std::min(contacts - 1, sizes - 1) * patterns + (groups * golden_ratio >> 29);
     if (!(used >> i & 1)) by_size[i].count = 0;
     used |= std::uint64_t(1) << i;
@@ -147,7 +147,7 @@ void SceneryContacts::apply_forces_on(const StepContext& context, std::uint32_t 
   if (q.count == 8) process_queue(context, q);
 }
 
-/// Whether one of its contacts is with a body that is no scenery.
+/// Whether one of its contacts is with a body that is not scenery.
 bool SceneryContacts::touches_robots(std::uint32_t robot, std::span<const Contact> contacts) {
   KnownRobot& known = robots_[robot];
   if (known.list.revision() != known.robots_revision || contacts.size() != known.robots_length) {
@@ -158,7 +158,7 @@ bool SceneryContacts::touches_robots(std::uint32_t robot, std::span<const Contac
   return known.touches_robots;
 }
 
-/// Nothing that it touches resists its turning.
+/// Clears the springs against turning: nothing that the robot touches resists its turning.
 void SceneryContacts::forget_turning(std::uint32_t robot) const {
   if (!robots_[robot].may_resist_turning) return;
   const ListOut<TurningSpring>& springs = bodies_.robots[robot].turning_springs;
@@ -241,7 +241,7 @@ void SceneryContacts::process_queue(const StepContext& context, Queue& q) {
   q.count = 0;
 }
 
-/// What does not fill the lanes, from the robots with the most contacts to those with the fewest.
+/// Processes the robots that do not fill the lanes, from those with the most contacts to those with the fewest.
 void SceneryContacts::process_rest(const StepContext& context, Queues& queues) {
   Queue all{};
   for (std::uint64_t left = queues.used; left != 0;) {
@@ -257,7 +257,7 @@ void SceneryContacts::process_rest(const StepContext& context, Queues& queues) {
   process_changed(context, queues);
 }
 
-/// `which`: a bit for each contact that is a spring. Finds their anchors, in any order.
+/// Adds the contacts `which` to the plan (a bit for each contact that is a spring). Finds their anchors, in any order.
 void SceneryContacts::make_plan(std::uint32_t robot, std::uint32_t which, Plan& plan) const {
   std::uint64_t pair = 0;
   std::size_t begin = 0;
@@ -280,7 +280,7 @@ void SceneryContacts::make_plan(std::uint32_t robot, std::uint32_t which, Plan& 
   }
 }
 
-/// For anchors that have a place in the list already.
+/// Returns the kernel's view of a robot. Anchors must have a place in the list already.
 KernelRobot SceneryContacts::view_of(std::uint32_t robot, const Plan& plan) const {
   const KnownRobot& known = robots_[robot];
   KernelRobot view{known.lasting};
@@ -297,7 +297,7 @@ KernelRobot SceneryContacts::view_of(std::uint32_t robot, const Plan& plan) cons
   return view;
 }
 
-/// A robot some of whose contacts are new, or gone.
+/// Enqueues a robot with some contacts that are new, or gone.
 void SceneryContacts::enqueue_changed(const StepContext& context, std::uint32_t robot, Queues& queues) {
   Queue& q = queues.changed;
   const auto contacts = *robots_[robot].list;
@@ -357,7 +357,7 @@ bool SceneryContacts::find_overlaps(const StepContext& context, std::uint32_t ro
   return any;
 }
 
-/// `overlaps`: of each contact of the list, m; null: none.
+/// Applies the springs of the plan. `overlaps`: of each contact of the list, m; null: none.
 void SceneryContacts::apply_springs(const StepContext& context, std::uint32_t robot, const Plan& plan,
                                     const double* overlaps) const {
   const auto contacts = *robots_[robot].list;
@@ -381,7 +381,7 @@ void SceneryContacts::apply_springs(const StepContext& context, std::uint32_t ro
   apply(parting);
 }
 
-/// Looks for impacts and for overlaps that no motion has made.
+/// Processes one robot alone. Finds impacts and overlaps that no motion has made.
 void SceneryContacts::process_single(const StepContext& context, std::uint32_t robot) {
   if (bodies_.tells_contacts) bodies_.robots[robot].told.clear();
   KnownRobot& known = robots_[robot];
@@ -407,7 +407,7 @@ void SceneryContacts::process_single(const StepContext& context, std::uint32_t r
   if (impacts != 0) apply_impacts(context, robot, impacts, times);
 }
 
-/// From the state alone, so that a restored run goes the way of the one that it was taken from.
+/// Compares anchors with contacts. It uses the state alone, so that a restored run goes on as the original run did.
 void SceneryContacts::find_match(std::uint32_t robot) {
   KnownRobot& known = robots_[robot];
   const auto all = *known.anchors;

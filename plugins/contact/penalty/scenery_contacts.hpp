@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contacts with static scenery, of robots that touch nothing that moves. Each robot is computed independently: by
-// itself, or in a SIMD lane beside similar ones.
+// Contacts with static scenery, of robots that touch nothing that moves. Each robot is computed independently: alone,
+// or in a SIMD lane beside similar ones.
 #pragma once
 
 #include <array>
@@ -19,27 +19,27 @@ class SceneryContacts {
   void start();
   /// Applies the forces on those robots of a block (robot numbers) that touch only scenery, or nothing. Any thread.
   void apply_forces(const StepContext& context, Range block);
-  /// By index in Bodies::robots: 1 for those that the last apply_forces() left out.
+  /// Flags by index in Bodies::robots: 1 for robots that the last apply_forces() left out.
   const std::vector<std::uint8_t>& remaining() const { return remaining_; }
 
  private:
-  /// What does not change while a contact lasts.
+  /// Data that do not change while a contact lasts.
   struct Identity {
     std::uint64_t bodies = 0, shapes = 0, pair = 0;
   };
   using Identities = std::array<Identity, max_contacts>;
   using KernelContacts = std::array<KernelContact, max_contacts>;
-  /// What is known of a robot and its contacts from earlier steps, so that the same contacts are not analysed again.
-  /// Results depend on contacts and anchors alone.
+  /// Data about a robot and its contacts from earlier steps, so that the same contacts are not analysed again. Results
+  /// depend on contacts and anchors alone.
   struct alignas(64) KnownRobot {
     ListIn<Contact> list;
     Anchors anchors;
-    LastingContacts lasting;               ///< `count`: known
-    std::uint64_t revision = 0;            ///< of the list of contacts, when it was last seen
+    LastingContacts lasting;               ///< `count`: number of known contacts
+    std::uint64_t revision = 0;            ///< revision of the list of contacts, when it was last seen
     const std::uint64_t* world = nullptr;  ///< see keys::contact_world
     const double* lag = nullptr;           ///< see keys::twist_lag; null: forces move its bodies one by one
-    std::uint64_t robots_revision = ~std::uint64_t{0};  ///< of the list, when it was last looked at for robots
-    std::uint32_t robots_length = 0;                    ///< the same
+    std::uint64_t robots_revision = ~std::uint64_t{0};  ///< of the list, when it was last searched for robots
+    std::uint32_t robots_length = 0;                    ///< length of the list at that time
     bool touches_robots : 1 = false;
     bool is_one_link : 1 = false, may_resist_turning : 1 = false;
     bool is_clear : 1 = false;  ///< no wrench acts on it, and it has no anchors
@@ -48,8 +48,8 @@ class SceneryContacts {
     bool is_parting : 1 = false;     ///< some anchor has an overlap
     bool was_in_impact : 1 = false;  ///< some anchor is that of an impact
   };
-  static_assert(sizeof(KnownRobot) == 128);  // two lines of the cache
-  /// Robots whose contacts are alike, until they fill the SIMD lanes.
+  static_assert(sizeof(KnownRobot) == 128);  // two cache lines
+  /// Robots with similar contacts, collected until they fill the SIMD lanes.
   struct Queue {
     std::uint32_t count;
     std::uint32_t robots[8];
@@ -80,10 +80,10 @@ class SceneryContacts {
 
   const Bodies& bodies_;
   const SceneryKernels& kernels_;
-  std::vector<KnownRobot> robots_;        ///< as Bodies::robots
-  std::vector<Identities> identities_;    ///< of the contacts that they know
-  std::vector<KernelContacts> contacts_;  ///< the same
-  ContactPatterns patterns_;              ///< those of contacts_ that several robots have
+  std::vector<KnownRobot> robots_;        ///< in the order of Bodies::robots
+  std::vector<Identities> identities_;    ///< identities of the contacts that they know
+  std::vector<KernelContacts> contacts_;  ///< for the kernel: the contacts that they know
+  ContactPatterns patterns_;              ///< patterns of contacts_ that several robots have
   std::vector<std::uint8_t> remaining_;
 };
 

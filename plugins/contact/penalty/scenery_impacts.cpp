@@ -7,7 +7,8 @@
 namespace muro::penalty {
 namespace {
 
-/// Numbers contacts by patch: of one object of the scenery, with normals alike. Returns the number of patches.
+/// Numbers contacts by patch: contacts with one object of the scenery and similar normals. Returns the number of
+/// patches.
 int sort_into_patches(const Bodies& bodies, std::span<const Contact> contacts, std::uint8_t* patch_of) {
   std::size_t first[max_contacts];  // contact of each patch
   int patches = 0;
@@ -25,7 +26,7 @@ int sort_into_patches(const Bodies& bodies, std::span<const Contact> contacts, s
 
 }  // namespace
 
-/// Returns a bit for each contact that is an impact; `times`: when, of these contacts.
+/// Returns a bit for each contact that is an impact; `times`: out, the times of these impacts.
 std::uint32_t SceneryContacts::find_impacts(const StepContext& context, std::uint32_t robot,
                                             TimeOfImpact* times) const {
   static_assert(max_contacts <= 32);
@@ -45,8 +46,8 @@ std::uint32_t SceneryContacts::find_impacts(const StepContext& context, std::uin
   return which;
 }
 
-/// In contacts `which`, patch by patch, each with the motion that those before it have left: so none gains energy.
-/// `times`: of all contacts.
+/// Applies the impacts of contacts `which`, patch by patch, each with the motion after the patches before it. So none
+/// gains energy. `times`: of all contacts.
 void SceneryContacts::apply_impacts(const StepContext& context, std::uint32_t robot, std::uint32_t which,
                                     const TimeOfImpact* times) const {
   const Robot& r = bodies_.robots[robot];

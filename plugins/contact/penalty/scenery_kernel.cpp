@@ -11,13 +11,13 @@ namespace {
 using namespace lane;
 using namespace law;
 
-/// The contacts of as many robots as S has values. Where one has fewer than another, its last contact stands in and
-/// counts for nothing. Each pass over the contacts stores its results for the next, so that the iterations of a pass
-/// do not wait for each other.
+/// The contacts of as many robots as S has values. If one has fewer than another, its last contact is repeated and
+/// counts for nothing. Each pass over the contacts stores its results for the next, so that the iterations of a pass do
+/// not wait for each other.
 template <class S>
 class RobotContacts {
  public:
-  /// Where there are fewer robots than S has values, the first stands in.
+  /// If there are fewer robots than S has values, the first is repeated.
   MURO_INLINE RobotContacts(const KernelBatch& batch, const KernelRobot* const* robots, int count)
       : batch_(batch), robots_(robots), number_(count), used_(first_lanes(count)) {
     Places<S> base_poses, masses;
@@ -76,8 +76,8 @@ class RobotContacts {
   }
 
  private:
-  /// What the robots of the call touch in: points alone; points and lines, the groups of all are alike, and none may be
-  /// in an impact; or whatever there is, and robots that roll.
+  /// Cells of the robots of the call. none: points alone. lines: points and lines, the groups of all are alike, and
+  /// none may be in an impact. any: all others, and robots that roll.
   enum class Cells { none, lines, any };
 
   template <Cells cells>
@@ -98,7 +98,7 @@ class RobotContacts {
     drift_ = (twist.linear + cross(twist.angular, body_.centre - base_)) * S(0.5 * batch_.stiffness.h);
     reach2_ = square_of_reach(body_);
   }
-  /// How a contact moves.
+  /// Motion of a contact.
   struct Moved {
     S approach;          ///< m/s
     V3<S> slip;          ///< m/s, of the middle of its cell
@@ -110,20 +110,20 @@ class RobotContacts {
     S depth, friction;
     S patch;  ///< number; -1 in lanes of robots that have fewer contacts
   };
-  /// What points of some robots have beside that; apart, so that the others take few lines of the cache.
+  /// Further data of points of some robots. They are stored apart, so that the points of others take few cache lines.
   struct Detail {
-    V3<S> arm;   ///< m, from the base to where it is in the middle of the step, when the force acts, as seen from the
+    V3<S> arm;   ///< m, from the base to its place in the middle of the step, when the force acts, as seen from the
                  ///< centre
-    V3<S> way;   ///< m: in the last step, of robots that roll
-    V3<S> turn;  ///< m, of a face: slip of the middle of its cell against its own, for 1 rad/s about the normal
+    V3<S> way;   ///< m: way in the last step, of robots that roll
+    V3<S> turn;  ///< m, of a face: slip of the middle of its cell relative to its own, for 1 rad/s about the normal
   };
-  /// Of each robot's contacts in a patch.
+  /// Contacts of each robot in a patch.
   struct PatchOf {
     V3<S> normal;
     S object;  ///< -1 in lanes of robots that have fewer patches
     EffectiveMass<S> mass;
   };
-  /// Contacts `begin` to `end` - 1: of one group in each robot. Their friction anchors of the step before.
+  /// Contacts `begin` to `end` - 1, of one group in each robot, and their friction anchors of the step before.
   struct Run {
     int begin, end;
     int most_anchors;
@@ -138,7 +138,7 @@ class RobotContacts {
     else
       return load_side_by_side<S>(v);
   }
-  /// Contact k of each robot to `sink`, with its lane.
+  /// Passes contact k of each robot to `sink`, with its lane.
   template <class Sink>
   MURO_INLINE void each_contact(int k, const Sink& sink) const {
     if (k < least_)
@@ -146,7 +146,7 @@ class RobotContacts {
     else
       for (int i = 0; i < count_of<S>; ++i) sink(i, contacts_[i][k < last_[i] ? k : last_[i]]);
   }
-  /// A number of each robot's contact k.
+  /// Returns a number of each robot's contact k.
   template <class Number>
   MURO_INLINE S of_contacts(int k, const Number& number) const {
     if (one_pattern_ && k < least_) return S(double(number(contacts_[0][k])));
@@ -165,7 +165,7 @@ class RobotContacts {
   }
 
   MURO_INLINE void load_contacts() {
-    S of_patches(1);  // in each lane
+    S of_patches(1);  // number of patches in each lane
     for (int k = 0; k < most_; ++k) {
       S c[contact_numbers];
       load_contact(k, c);
@@ -197,7 +197,7 @@ class RobotContacts {
   MURO_INLINE static MaskOf<S> of_patch(const PatchOf& patch, const V3<S>& normal, S object) {
     return (dot(patch.normal, normal) > S(same_direction)) & (patch.object == object);
   }
-  /// The contact is the first of patch `number` in each of the lanes.
+  /// Adds patch `number` in each of the lanes. The contact is its first.
   MURO_INLINE void add_patches(MaskOf<S> lanes, S number, const V3<S>& normal, S object) {
     if (any(lanes & (number == S(patch_count_)))) patches_[patch_count_++] = {normal, S(-1), {}};
     for (int n = 1; n < patch_count_; ++n) {
@@ -207,7 +207,7 @@ class RobotContacts {
     }
   }
 
-  /// Lanes whose contacts k - 1 and k belong to one group and one patch.
+  /// Returns the lanes in which contacts k - 1 and k belong to one group and one patch.
   MURO_INLINE MaskOf<S> joined(int k) const {
     MaskOf<S> lanes = points_[k].patch == points_[k - 1].patch;
     if (k >= least_) lanes = lanes & (S(k) < count_);
@@ -218,7 +218,7 @@ class RobotContacts {
     }
     return lanes;
   }
-  /// Finds the cells of patches, but those of lines where there is nothing else.
+  /// Finds the cells of patches. If there is nothing but points and lines, cells of lines are not found here.
   MURO_INLINE Cells find_cells() {
     const std::uint64_t all = (std::uint64_t(1) << most_) - 1, goes_on = all & ~std::uint64_t(groups_);
     has_cells_ = (all & ~std::uint64_t(common_groups_)) != 0;
@@ -228,16 +228,16 @@ class RobotContacts {
     find_any_turns();
     return Cells::any;
   }
-  /// Of the patch of contact k: that of its first contact.
+  /// Returns the normal of the patch of contact k: that of its first contact.
   MURO_INLINE V3<S> patch_normal(int k) const {
     V3<S> normal = patches_[0].normal;
     for (int n = 1; n < patch_count_; ++n) normal = select(points_[k].patch == S(n), patches_[n].normal, normal);
     return normal;
   }
-  /// Of robots whose groups differ, or are parts of several patches, or faces.
+  /// Finds lines and faces, if groups of the robots differ, are parts of several patches, or are faces.
   [[gnu::noinline]] void find_any_turns() {
     const MaskOf<S> no_lane = S(1) < S(0);
-    MaskOf<S> goes_on[max_contacts + 2];  // contact k - 1 of the patch in contact k
+    MaskOf<S> goes_on[max_contacts + 2];  // the patch of contact k - 1 goes on in contact k
     goes_on[0] = goes_on[most_] = goes_on[most_ + 1] = no_lane;
     for (int k = 1; k < most_; ++k) {
       goes_on[k] = joined(k);
@@ -252,7 +252,7 @@ class RobotContacts {
   [[gnu::noinline]] void find_faces(const MaskOf<S>* goes_on) {
     contact_geometry::FacePoints<S> faces[max_contacts];
     S distances[max_contacts], farthest[max_contacts];
-    V3<S> arms[max_contacts];  // from the middle
+    V3<S> arms[max_contacts];  // m, from the middle
     const auto of_face = [&](int k) -> MaskOf<S> { return (goes_on[k] | goes_on[k + 1]) & (faces[k].count > S(2)); };
     for (int k = 0; k < most_; ++k) {
       details_[k].turn = {S(0), S(0), S(0)};
@@ -289,7 +289,7 @@ class RobotContacts {
             select(mask, a.zx, b.zx),       select(mask, a.xy, b.xy)};
   }
 
-  /// Divides the effective mass of each patch among its points. Returns what holds the robot.
+  /// Divides the effective mass of each patch among its points. Returns the stiffness that holds the robot.
   MURO_INLINE SpringStiffness<S> find_effective_masses() {
     SpringStiffness<S> all;
     const bool plain = patch_count_ == 1;
@@ -309,10 +309,11 @@ class RobotContacts {
     return all;
   }
 
-  /// Velocities and tangential displacements of the points. Returns a bit for each robot that may be in an impact.
+  /// Finds velocities and tangential displacements of the points. Returns a bit for each robot that may be in an
+  /// impact.
   template <Cells cells>
   MURO_INLINE unsigned move_contacts() {
-    S may_collide(0);  // or 1
+    S may_collide(0);  // 0 or 1
     if constexpr (cells == Cells::any)
       if (has_cells_) find_any_slips();
     Run run;
@@ -349,7 +350,7 @@ class RobotContacts {
     run.most_anchors = 0;
     each_contact(run.begin, [&](int i, const KernelContact& c) {
       const int anchors = c.anchors_end - c.anchors_begin;
-      // where there is none, numbers of the contact stand in
+      // if there is none, numbers of the contact are read instead
       run.anchors.at[i] =
           anchors > 0 ? before_.at[i] + c.anchors_begin * anchor_stride : listed_.at[i] + c.place * contact_stride;
       run.last_anchor[i] = anchors - 1;
@@ -366,12 +367,13 @@ class RobotContacts {
       Places<S> at = run.anchors;
       for (int k = 0; k < anchors; ++k) {
         to.load(k, at, 0);
-        for (int i = 0; i < count_of<S>; ++i) at.at[i] += k < run.last_anchor[i] ? anchor_stride : 0;  // the last again
+        for (int i = 0; i < count_of<S>; ++i)
+          at.at[i] += k < run.last_anchor[i] ? anchor_stride : 0;  // repeats the last
       }
     }
     if (any_rolls_) load_ways(run, anchors, to);
   }
-  /// Those of robots that do not roll are any numbers.
+  /// Loads the ways of anchors. Ways of robots that do not roll are any numbers.
   template <int n>
   [[gnu::noinline]] void load_ways(const Run& run, int anchors, OldAnchors<S, n>& to) const {
     Places<S> at = ways_before_;
@@ -388,7 +390,7 @@ class RobotContacts {
   [[gnu::noinline]] void move_any_run(const Run& run, S& may_collide) {
     move_run<max_contacts, cells>(run, may_collide);
   }
-  /// With at most n anchors, or any number of them.
+  /// Moves the contacts of a run with at most n anchors; any number of anchors if n is max_contacts.
   template <int n, Cells cells>
   MURO_INLINE void move_run(const Run& run, S& may_collide) {
     const V3<S> origin = load_vector(run.poses);
@@ -408,7 +410,7 @@ class RobotContacts {
       if (!run.all_have_anchors) old = select(have_anchors, old, {zero, zero, zero});
       if constexpr (cells == Cells::any) details_[k].arm = p.at - base_;
       if (cells == Cells::any && any_rolls_) {
-        // a point that moves over the body, as on a rim, moves on; others appear
+        // a point that moves over the body, as on a rim, moves on; other points are new
         const V3<S> none{zero, zero, zero}, last = anchors > 0 ? before.way_of_nearest(p.at, anchors) : none;
         const auto moves_on = (dot(way, way) < reach2_) & have_anchors & rolls_;
         Detail& detail = details_[k];
@@ -431,22 +433,22 @@ class RobotContacts {
     for (int i = 0; i < count_of<S>; ++i) last[i] = run.last_anchor[i];
     return side_by_side(last) >= S(0);
   }
-  /// `old`: of the step before.
+  /// Returns the tangential displacement. `old`: of the step before.
   MURO_INLINE V3<S> displacement_of(const V3<S>& normal, const V3<S>& old, const V3<S>& slip) const {
     const V3<S> displacement = old + slip * S(batch_.elapsed);
     return displacement - normal * dot(normal, displacement);
   }
-  /// Of the point, which no cell has moved.
+  /// Finds the slip of the point, not of the middle of its cell.
   MURO_INLINE static void find_slip(const Point& p, const TwistOf<S>& motion, const V3<S>& origin, Moved& to) {
     const V3<S> velocity = motion.linear + cross(motion.angular, p.at - origin);
     to.approach = -dot(velocity, p.normal);
     to.slip = velocity + to.approach * p.normal;
   }
-  /// Of a vector that changes evenly along a line: from its first end to the middle of that one's cell.
+  /// Returns the change of a vector that changes evenly along a line, from the first end to the middle of its cell.
   MURO_INLINE static V3<S> part_of_line(const V3<S>& first, const V3<S>& second) {
     return contact_geometry::shift_in_line(first, second);
   }
-  /// Of all points, in the middles of their cells.
+  /// Finds the slips of all points, in the middles of their cells.
   [[gnu::noinline]] void find_any_slips() {
     Run run;
     for (run.begin = 0; run.begin < most_; run.begin = run.end) {
@@ -477,7 +479,7 @@ class RobotContacts {
     }
   }
 
-  /// What a contact does: along the normal in its point, across it in the middle of its cell.
+  /// Force of a contact: along the normal in its point, across it in the middle of its cell.
   struct Push {
     V3<S> along, across;
   };
@@ -534,7 +536,7 @@ class RobotContacts {
     }
     store_rows(wrench_, 0, {force.x, force.y, force.z, torque.x, torque.y, torque.z}, processed);
   }
-  /// Lines and points, one after the other: nothing is stored between velocities and forces.
+  /// Computes lines and points one after the other. Nothing is stored between velocities and forces.
   MURO_INLINE void push_lines(S load) {
     const S none(0);
     V3<S> force{none, none, none}, torque = force;
@@ -557,7 +559,7 @@ class RobotContacts {
                                        V3<S>& force, V3<S>& torque) {
     push_line<max_contacts>(run, friction, law, load, force, torque);
   }
-  /// With at most n anchors, or any number of them.
+  /// Applies the forces of a line or point with at most n anchors; any number of anchors if n is max_contacts.
   template <int n>
   MURO_INLINE void push_line(const Run& run, const FrictionLaw<S>& friction, NormalLaw<S>& law, S load, V3<S>& force,
                              V3<S>& torque) {
@@ -597,8 +599,8 @@ class RobotContacts {
     force += all;
     torque += cross(cells == Cells::any ? details_[k].arm : points_[k].at - base_, all);
   }
-  /// What friction of a line does in the middles of its cells, it does as well in the ends, in parts; that of faces has
-  /// moments about their normals.
+  /// Moves friction of lines from the middles of their cells to the ends, in parts, with the same effect. Friction of
+  /// faces has moments about their normals.
   MURO_INLINE void move_friction(Push* pushes, V3<S>& torque) const {
     if (has_faces_) add_moments(pushes, torque);
     for (int k = 0; k + 1 < most_; ++k) {
@@ -609,7 +611,7 @@ class RobotContacts {
       second = select(begins_line_[k], second - part, second);
     }
   }
-  /// Of friction in faces.
+  /// Adds the moments of friction in faces.
   MURO_INLINE void add_moments(const Push* pushes, V3<S>& torque) const {
     for (int n = 0; n < patch_count_; ++n) {
       S moment(0);
@@ -619,7 +621,7 @@ class RobotContacts {
       torque += moment * patches_[n].normal;
     }
   }
-  /// Whether contacts k - 1 and k are of one group in each robot: of one line, where there is nothing else.
+  /// Whether contacts k - 1 and k are of one group in each robot. They are a line if there are only lines and points.
   MURO_INLINE bool is_joined(int k) const { return k < most_ && !(groups_ >> k & 1); }
   template <Cells cells>
   MURO_INLINE void tell_contact(int k, const Push& push, unsigned which) const {
@@ -663,13 +665,13 @@ class RobotContacts {
 
   const KernelBatch& batch_;
   const KernelRobot* const* const robots_;
-  const int number_;     ///< of robots
+  const int number_;     ///< number of robots
   const unsigned used_;  ///< bits of lanes
   unsigned changed_ = 0, groups_ = 0, common_groups_ = ~0u;
   bool has_cells_ = false;               ///< friction of some points is in the middle of a cell
-  bool has_faces_ = false;               ///< the same, of faces; else of lines alone
-  bool has_line_[max_contacts];          ///< of contacts k and k + 1, of some robots
-  MaskOf<S> begins_line_[max_contacts];  ///< of these
+  bool has_faces_ = false;               ///< some of these cells are of faces; otherwise of lines alone
+  bool has_line_[max_contacts];          ///< contacts k and k + 1 are a line in some robots
+  MaskOf<S> begins_line_[max_contacts];  ///< in these robots
   MaskOf<S> in_face_[max_contacts];
   S largest_spin_{0};
   bool any_spins_ = false;
@@ -678,17 +680,17 @@ class RobotContacts {
   bool in_order_ = true, has_many_materials_ = false, has_many_objects_ = false;
   bool is_uniform_ = true;  ///< robots are in order, and have equal groups, which have the anchors of their contacts
   const KernelContact* contacts_[count_of<S>];
-  bool one_pattern_ = true;   ///< they are all the same
+  bool one_pattern_ = true;   ///< the contacts of all robots are the same
   Places<S> poses_, twists_;  ///< of the bodies of their first contacts
   int last_[count_of<S>];
-  int least_ = 0, most_ = 0;  ///< contacts that a robot has
-  S count_;                   ///< of contacts of each
+  int least_ = 0, most_ = 0;  ///< limits of the number of contacts of a robot
+  S count_;                   ///< number of contacts of each robot
   Places<S> listed_, before_, ways_before_;
   Places<S, double> anchors_, ways_, wrench_, forces_;
   Mobility<S> body_;
   V3<S> base_;
-  V3<S> drift_;  ///< m: what the centre of mass moves by within half a step
-  S reach2_;     ///< m^2: the square of what a point moves by in a step at most
+  V3<S> drift_;  ///< m: way of the centre of mass within half a step
+  S reach2_;     ///< m^2: square of the longest way of a point in a step
   bool any_looked_at_ = false;
   MaskOf<S> looked_at_;  ///< robots that may be in impacts
   int patch_count_ = 0;

@@ -27,7 +27,7 @@ constexpr MassProperties light{
 constexpr MassProperties heavy{
     .inverse_mass = 0.01, .com = {-0.1, 0.05, 0.2}, .inverse_inertia = {0.03, 0.02, 0.05, 0.001, 0, -0.002}};
 
-/// A vehicle of four bodies, each with two contacts or fewer, or of two with four; numbers of its own.
+/// A vehicle of four bodies with at most two contacts each, or of two bodies with four each. It owns its numbers.
 struct Vehicle {
   Pose base, bodies[4];
   Twist twist, twists[4];
@@ -138,7 +138,7 @@ KernelBatch work() {
   return {.stiffness = {omega, h}, .elapsed = elapsed, .impact_speed = std::numeric_limits<double>::infinity()};
 }
 
-/// The same in matrices, contact by contact: the model in the plugin's README.
+/// Returns the wrench by the model in the plugin's README, in matrices, contact by contact.
 Wrench by_the_model(const Vehicle& v, std::vector<Vec3>& displacements) {
   const auto count = std::size_t(v.count);
   const Mat3 r = v.base.orientation.toRotationMatrix();
@@ -182,7 +182,7 @@ Wrench by_the_model(const Vehicle& v, std::vector<Vec3>& displacements) {
     return v.body_of(a) == v.body_of(b) && first[a] == first[b];
   };
   std::vector<Vec3> shifts(count, Vec3::Zero());
-  std::vector<std::size_t> other_end(count);  // of a line; of others themselves
+  std::vector<std::size_t> other_end(count);  // of a line; other contacts have themselves
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
     for (end = begin + 1; end < count && are_joined(end - 1, end);) ++end;
     contact_geometry::find_shifts(
@@ -230,7 +230,7 @@ Wrench by_the_model(const Vehicle& v, std::vector<Vec3>& displacements) {
     displacements.emplace_back(spring.x, spring.y, spring.z);
     const Vec3 friction = across[k] * Vec3(f.x, f.y, f.z);
     total.add_force(normal * c.normal + friction, arm);
-    if (is_line)  // friction acts at a quarter of the way to the other end, as that goes on
+    if (is_line)  // friction acts at a quarter of the way to the other end; both ends move on
       line_friction.emplace_back(k, arm, friction);
     else
       total.torque += of_patch * of_patch.dot(to_cell.cross(friction));
@@ -260,7 +260,7 @@ TEST(SceneryKernel, AgreesWithTheModelContactByContactOnEvenAndUnevenGround) {
   }
 }
 
-/// Eight drawn vehicles together on `isa`, and each of them alone.
+/// Compares eight drawn vehicles together on `isa` with each of them alone.
 void expect_the_same_bits(const std::vector<Vehicle>& drawn, const KernelBatch& batch, lane::Isa isa) {
   std::vector<Vehicle> together = drawn, alone = drawn;
   KernelRobot together_views[8], alone_views[8];

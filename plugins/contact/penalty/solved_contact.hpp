@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is kept of a contact that was solved together with others, beside its friction anchor.
+// Data kept of a contact that was solved together with others, beside its friction anchor.
 #pragma once
 
 #include "muro/key.hpp"
@@ -7,15 +7,15 @@
 
 namespace muro::penalty {
 
-/// Found again as the friction anchor of the contact.
+/// Result of a contact. It is found again in the same way as the friction anchor of the contact.
 struct SolvedContact {
   std::uint64_t pair = 0;
   Vec3 point = Vec3::Zero();  ///< m, world
   double load = 0;            ///< N: normal force of the last step
-  double mean_load = 0;       ///< N: the same, its mean over some steps
-  double rebounds = 0;        ///< s: so long it is a spring by itself, since it bounces
-  double expected = 0;        ///< m/s: at which the points were expected to part at the end of the last step
-  double more = 0;            ///< m/s: by which they have parted faster than expected, its mean over some steps
+  double mean_load = 0;       ///< N: mean of the normal force over some steps
+  double rebounds = 0;        ///< s: time for which it is a single spring, since it bounces
+  double expected = 0;        ///< m/s: expected speed at which the points part at the end of the last step
+  double more = 0;            ///< m/s: by which they part faster than expected, mean over some steps
 };
 
 }  // namespace muro::penalty

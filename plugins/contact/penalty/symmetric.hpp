@@ -26,7 +26,7 @@ struct Symmetric {
     return {m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
             m.xz * v.x + m.yz * v.y + m.zz * v.z};
   }
-  /// The same in those lanes that the mask has, and 0 in the others.
+  /// Returns the matrix in the lanes of the mask, and 0 in the others.
   template <class M>
   MURO_INLINE Symmetric where(M mask) const {
     const S zero(0);

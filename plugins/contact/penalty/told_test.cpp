@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What contact.penalty tells of contacts: to every robot with a part in them, with equal and opposite wrenches.
+// Contacts that contact.penalty reports: every robot with a part in them gets them, with equal and opposite wrenches.
 #include <gtest/gtest.h>
 
 #include "penalty_testing.hpp"
@@ -17,7 +17,7 @@ struct ToldScene : test::ContactScene {
   }
 };
 
-/// Those of a list with a body of a robot, in the order of the list.
+/// Returns the contacts of a list with a body of a robot, in the order of the list.
 std::vector<ContactWrench> with_robot(const ListIn<ContactWrench>& list, const RobotView& other) {
   std::vector<ContactWrench> some;
   for (const ContactWrench& c : *list)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rolling and spinning resistance: a spring with a slider, as friction is, about the axes of a contact.
+// Rolling and spinning resistance: a spring with a slider, as for friction, about the axes of a contact.
 #pragma once
 
 #include "contact_law.hpp"
@@ -9,24 +9,24 @@
 
 namespace muro::penalty {
 
-/// How far a body has turned over another in one contact since the spring was at rest (the rolling spring of Iwashita
-/// and Oda, Rolling resistance at contacts in simulation of shear band development by DEM, J. Engineering Mechanics
-/// 124, 1998). Found again as the friction anchor of the contact.
+/// Angle by which a body has turned over another in one contact since the spring was at rest (the rolling spring of
+/// Iwashita and Oda, Rolling resistance at contacts in simulation of shear band development by DEM, J. Engineering
+/// Mechanics 124, 1998). It is found again in the same way as the friction anchor of the contact.
 struct TurningSpring {
   std::uint64_t pair = 0;
   Vec3 point = Vec3::Zero();  ///< m, world
   Vec3 angle = Vec3::Zero();  ///< rad, world
 };
 
-/// An upper bound of the largest eigenvalue (Gershgorin).
+/// Returns an upper bound of the largest eigenvalue (Gershgorin).
 inline double largest_eigenvalue_bound(const law::Symmetric<double>& m) {
   const double xy = std::abs(m.xy), xz = std::abs(m.xz), yz = std::abs(m.yz);
   return std::max({m.xx + xy + xz, m.yy + xy + yz, m.zz + xz + yz});
 }
 
-/// Torque (N m) about the contact on the body that turns with `turning` (rad/s) over the other. `spring`: its angle
-/// includes the path of the last step, and is updated. `normal_force`: N. `inertia`: kg m^2, what both have together
-/// about the axis that turns most easily, its share for this contact.
+/// Returns the torque (N m) about the contact on the body that turns with `turning` (rad/s) over the other. `spring`:
+/// its angle includes the path of the last step, and is updated. `normal_force`: N. `inertia`: kg m^2, of both bodies
+/// together about the axis that turns most easily, the share of this contact.
 inline Vec3 turning_resistance(TurningSpring& spring, const law::FrictionLaw<double>& law, const Surface& surface,
                                const Vec3& normal, const Vec3& turning, double normal_force, double inertia) {
   Vec3 torque = Vec3::Zero(), angle = Vec3::Zero();

@@ -27,7 +27,7 @@ TEST(Vehicle, StandsStillForAMinute) {
   const Pose after = s.pose(*s.robot);
   EXPECT_LT((after.position - before.position).norm(), 1e-9);
   EXPECT_LT(after.orientation.angularDistance(before.orientation), 1e-9);
-  // It sinks g / omega^2, times the softening that stability asks for.
+  // It sinks g / omega^2, times the softening that stability requires.
   const double sag = 0.09 - after.position.z(), omega = 2 * M_PI * 50;
   EXPECT_GT(sag, g / (omega * omega));
   EXPECT_LT(sag, 2 * g / (omega * omega));
@@ -84,8 +84,8 @@ TEST(Vehicle, HoldsOnASlopeUpToTheAngleOfFrictionInAnyHeading) {
 }
 
 TEST(Vehicle, AxleLoadsOnASlopeAreThoseOfStatics) {
-  // Front and rear: m g (b cos -+ h sin) / (a + b), a = b = 0.12; h: centre of mass over the ground. Depths are as
-  // loads.
+  // Front and rear: m g (b cos -+ h sin) / (a + b), a = b = 0.12; h: centre of mass over the ground. Depths are in the
+  // ratio of loads.
   ContactScene s;
   const double angle = 0.3, raised = 0.05;
   const Quat tilt = from_rpy(0, -angle, 0);  // nose up

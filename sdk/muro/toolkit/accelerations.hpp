@@ -15,7 +15,7 @@ namespace muro {
 inline constexpr PropertyUse writes_acceleration{"acceleration", "of the base, where something reads it"};
 inline constexpr PropertyUse writes_joint_acceleration{"joint.acceleration", "of joints, where something reads it"};
 
-/// The way in which a motion moves the base of a robot; it says how acceleration follows from velocities.
+/// Way in which a motion moves the base of a robot. It decides how acceleration follows from velocities.
 enum class BaseMotion : std::uint8_t {
   /// The motion sets the velocity in body axes: a = R (v_b' - v_b) / h + w x v. An arc at constant speed is exact.
   kinematic,
@@ -33,8 +33,8 @@ class Accelerations {
 
   /// Connects item `i`. Call in `connect_by_name` of a motion that writes pose, twist and joint velocities. `base`:
   /// inertia of the body that is the base, in its frame; for motions by forces. `keeps_applied`: the motion lets
-  /// wrenches act on the links and writes them (keys::applied_wrench). After a step of a motion that does not, they are
-  /// unknown. [setup]
+  /// wrenches act on the links and writes them (keys::applied_wrench). After a step of a motion that does not, these
+  /// wrenches are not a number. [setup]
   void connect_by_name(Connector& c, std::uint32_t i, BaseMotion how, const Inertia& base = {},
                        bool keeps_applied = false) {
     const Item& item = c.items()[i];
@@ -79,7 +79,7 @@ class Accelerations {
     }
   }
 
-  /// Call after the motion has moved it by `dt` (s). [step]
+  /// Call after the motion has moved item `i` over a step of `dt` (s). [step]
   void end_step(std::uint32_t i, double dt) {
     OfRobot* const r = find(i);
     if (!r) return;
@@ -117,14 +117,15 @@ class Accelerations {
     Out<Pose> pose;
     Out<Twist> twist, acceleration;
     BaseMotion how = BaseMotion::kinematic;
-    Vec3 com = Vec3::Zero();               ///< m, in the frame of the base
-    Twist before;                          ///< by_forces: velocity of the centre; else in the axes of the base
-    Vec3 centre = Vec3::Zero();            ///< m, from the base's origin to its centre of mass, in world axes
+    Vec3 com = Vec3::Zero();     ///< m, in the frame of the base
+    Twist before;                ///< by_forces: velocity of the centre; kinematic: velocity in the axes of the base
+    Vec3 centre = Vec3::Zero();  ///< m, from the base's origin to its centre of mass, in world axes
     double centre_axes[4] = {0, 0, 0, 0};  ///< orientation of the base to which `centre` belongs (x, y, z, w)
     std::vector<Joint> joints;
     std::vector<Out<Wrench>> applied;  ///< applied wrenches of links that another motion of the robot keeps
 
-    /// Most steps begin with the orientation at which the step before has ended.
+    /// Updates `centre` if the orientation has changed. Most steps begin with the orientation at which the last step
+    /// ended.
     void place_centre() {
       const double* const q = pose->orientation.coeffs().data();
       if (q[0] == centre_axes[0] && q[1] == centre_axes[1] && q[2] == centre_axes[2] && q[3] == centre_axes[3]) return;
@@ -134,8 +135,8 @@ class Accelerations {
       centre = {com.x() + q[3] * tx + q[1] * tz - q[2] * ty, com.y() + q[3] * ty + q[2] * tx - q[0] * tz,
                 com.z() + q[3] * tz + q[0] * ty - q[1] * tx};
     }
-    /// Keeps the velocity of the centre, for by_forces. Numbers instead of vectors: it runs for each robot in each
-    /// step.
+    /// Stores the velocity of the centre, for by_forces. It uses numbers instead of vectors, because it runs for each
+    /// robot in each step.
     void keep_velocity() {
       const double *v = twist->linear.data(), *w = twist->angular.data(), *c = centre.data();
       double *linear = before.linear.data(), *angular = before.angular.data();
@@ -161,7 +162,7 @@ class Accelerations {
       const Quat& axes = pose->orientation;
       return {axes * change + twist->angular.cross(twist->linear), axes * turning};
     }
-    /// a_O = a_C - alpha x c - w x (w x c), with place_centre() done before
+    /// a_O = a_C - alpha x c - w x (w x c); place_centre() is called before
     Twist of_centre(const Vec3& change, const Vec3& turning) const {
       const Vec3& w = twist->angular;
       return {change - turning.cross(centre) - w.cross(w.cross(centre)), turning};
@@ -191,7 +192,7 @@ class Accelerations {
     return r.of_centre(gravity, axes * turning);
   }
 
-  std::vector<std::int32_t> of_item_;  ///< index in robots_; -1: nothing reads an acceleration of it
+  std::vector<std::int32_t> of_item_;  ///< for each item: index in robots_; -1: nothing reads its acceleration
   std::vector<OfRobot> robots_;
   MeshVertices vertices_;
   std::optional<InitialContact> contact_;

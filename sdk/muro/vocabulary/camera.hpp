@@ -7,7 +7,7 @@
 
 namespace muro::keys {
 
-// Cameras: properties of the sensor's object; x forward, as every sensor frame here.
+// Cameras: properties of the sensor's object; x is forward, as in every sensor frame here.
 inline constexpr Key<std::uint32_t> camera_width{"camera.width", "1", "pixels"};
 inline constexpr Key<std::uint32_t> camera_height{"camera.height", "1", "pixels"};
 inline constexpr Key<double> camera_horizontal_fov{"camera.horizontal_fov", "rad", "opening angle"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who answers for contacts, what touches, and what contacts do.
+// Contacts: which algorithm answers for them, what touches, and which wrenches they exert.
 #pragma once
 
 #include "muro/key.hpp"
@@ -7,7 +7,7 @@
 
 namespace muro {
 
-/// What impulses J change that should have acted a time t before the middle of this step. World axes.
+/// Change by impulses J that should have acted a time t before the middle of this step. World axes.
 struct ImpactCorrection {
   Vec3 path = Vec3::Zero();  ///< kg m: sum of J t, the path of the centre of mass times the mass
   Vec3 turn = Vec3::Zero();  ///< kg m^2: sum of (lever x J) t, the rotation times the inertia about the centre of mass
@@ -27,31 +27,33 @@ MURO_OPAQUE_TYPE(ImpactCorrection, "muro.ImpactCorrection", opaque);
 namespace muro::keys {
 
 // Properties of a robot's base.
-/// A motion that forces move says here who answers for contacts. 0: nobody, no force moves the robot. contact_for_all:
-/// the contact algorithm, for all of them. Any other number names a world: it answers for contacts of its robots with
-/// each other, with scenery and with robots that no force moves; for those with robots that forces move in another way
-/// the contact algorithm does.
+/// A motion with forces writes here who answers for contacts. 0: nobody, no force moves the robot. contact_for_all: the
+/// contact algorithm, for all of them. Any other number names a world, which answers for contacts of its robots with
+/// each other, with scenery and with robots that no force moves. The contact algorithm answers for their contacts with
+/// robots that forces move in another way.
 inline constexpr Key<std::uint64_t> contact_world{"contact.world", "1", "who answers for contacts of the robot",
                                                   Role::motion_trait};
 inline constexpr std::uint64_t contact_for_all = 1;
-/// How many steps the twist is older than the pose. 0 where pose and twist are those of one instant and a constant
-/// force F carries the centre by v h + F h^2 / 2m; 0.5 for semi-implicit Euler, v' = v + F h / m, x' = x + v' h, whose
-/// velocities are those of the middles of steps (leapfrog). Contact needs it to keep energy and angular momentum.
+/// Number of steps by which the twist is older than the pose. It is 0 if pose and twist belong to one instant and a
+/// constant force F carries the centre by v h + F h^2 / 2m. It is 0.5 for semi-implicit Euler, v' = v + F h / m,
+/// x' = x + v' h, with velocities of the middles of steps (leapfrog). Contact needs it to keep energy and angular
+/// momentum.
 inline constexpr Key<double> twist_lag{"twist.lag", "1", "steps by which the twist is older than the pose",
                                        Role::motion_trait};
-/// Of a robot whose motion resolves contacts among its own links and leaves it to the collision algorithm to find them.
+/// Set by a motion that resolves contacts among the links of a robot and needs the collision algorithm to find them.
 /// Links that one joint connects, or only fixed ones, do not touch.
 inline constexpr Key<std::uint32_t> self_collision{"self_collision", "1", "1: `contacts` has those among its links",
                                                    Role::motion_trait};
 
 inline constexpr Key<Contact> contacts{"contacts", "m", "list on the base of a robot: where it touches"};
-// Who answers for contacts writes them one by one where somebody reads them, on the base of a robot.
-/// Of the last step, by the engine that moves the robot. A robot that no force moves has no such list: what it does to
-/// others stands in theirs.
+// Lists of single contacts on the base of a robot. Who answers for contacts writes them if something reads them.
+/// Contacts of the last step, written by the engine that moves the robot. A robot that no force moves has no such list:
+/// its effect on other robots is in their lists.
 inline constexpr Key<ContactWrench> contact_wrenches_of_motion{
     "contact.wrenches.motion", "m, N, N m", "list on the base of a robot: what its engine's contacts did to it",
     Role::motion_trait};
-/// By the contact algorithm, for the step that begins; also on robots that no force moves and that others push.
+/// Contacts of the step that begins, written by the contact algorithm; also on robots that no force moves and that
+/// others push.
 inline constexpr Key<ContactWrench> contact_wrenches_of_law{
     "contact.wrenches.law", "m, N, N m", "list on the base of a robot: what the contact algorithm does to it"};
 
@@ -59,20 +61,21 @@ inline constexpr Key<ContactWrench> contact_wrenches_of_law{
 inline constexpr Key<Wrench> contact_wrench{
     "wrench.contact", "N, N m", "what contacts did to a body in the last step: world axes, at the body's origin",
     Role::motion_trait};
-/// Constant on the world object: a FrictionRule (toolkit/pair_surface.hpp); the smaller where it is missing.
+/// Constant on the world object: a FrictionRule (toolkit/pair_surface.hpp). If it is missing, the smaller friction
+/// counts.
 inline constexpr Key<std::uint32_t> friction_rule{"friction.rule", "1",
                                                   "how a pair's friction follows from those of its two shapes"};
 
-/// By a contact algorithm, for motions that resolve contacts with scenery themselves: any of these contacts may have to
-/// bear what robots carry together.
+/// Written by a contact algorithm, for motions that resolve contacts with scenery themselves. Each of these contacts
+/// may have to carry the mass of all robots that carry each other.
 inline constexpr Key<double> carried_mass{
     "contact.carried_mass", "kg",
     "on a base: of all robots that carry each other, itself included; 0 while it carries none and none carries it"};
 
-// Impacts at the instant in which contact begins. Contact begins within a step, and is found at its end. The force of
-// the next step gives bodies the momentum of the impact, but not the path on which they would be by now had the impulse
-// acted at its instant. A motion that offers `contact.impact.step` takes that path from `contact.impact`, in the step
-// that begins at `contact.impact.time`.
+// Impacts at the instant at which contact begins. Contact begins within a step and is found at its end. The force of
+// the next step gives bodies the momentum of the impact. It does not give them the path that an impulse at its instant
+// would have caused. A motion that offers `contact.impact.step` takes that path from `contact.impact`, in the step that
+// begins at `contact.impact.time`.
 inline constexpr Key<double> impact_step{
     "contact.impact.step", "s",
     "on a base: its motion corrects the path after impacts, and takes steps of this length"};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Properties by which a reader of models hands the host what is no part of the robot: for RobotBuilder::set and
-// set_array.
+// Properties for data of a model that are no part of the robot. A reader of models hands them to the host by
+// RobotBuilder::set and set_array.
 #pragma once
 
 #include "muro/key.hpp"
@@ -8,7 +8,8 @@
 
 namespace muro::keys {
 
-// Constants of the body of a model that is a single file. The host asks for them to place what stands on the body.
+// Constants of the body of a model that is a single file. The host asks for them to place objects that stand on the
+// body.
 /// Array: values of the heightmap, row by row from -y, in each row from -x (see toolkit/heightmap.hpp).
 inline constexpr Key<float> heightmap_values{"heightmap.values", "1", "values of a heightmap at its nodes"};
 inline constexpr Key<std::uint32_t> heightmap_columns{"heightmap.columns", "1", "nodes of a heightmap along x"};
@@ -18,7 +19,7 @@ inline constexpr Key<Vec3> mesh_corners{"mesh.corners", "m", "corners of the con
 // Sensors, drives and names of materials that a model file brings. A robot does not keep these properties.
 /// Array on the base. Each text is one subsystem, written as in a scenario:
 /// `lidar: {use: laser.embree, on: base_link, rate: 10}`. A text without `use`, named `motion`, holds parameters of the
-/// robot's motions. What the scenario says has priority.
+/// robot's motions. Values of the scenario have priority.
 inline constexpr Key<TextId> model_subsystems{"model.subsystems", "1", "array: subsystems that the model brings"};
 /// Array on the base: line and column of each subsystem in the model's file, from 1; 0: unknown.
 inline constexpr Key<std::int32_t> model_subsystem_places{"model.subsystems.places", "1",

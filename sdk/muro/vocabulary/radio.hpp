@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Properties of radios: on the radio's object. Control code writes what is to be sent and reads what has come.
+// Properties of radios: on the radio's object. Control code writes messages to send and reads received messages.
 #pragma once
 
 #include <array>
@@ -8,43 +8,44 @@
 
 namespace muro::radio {
 
-/// Bytes of a message that are carried; of a longer message the first.
+/// Largest number of bytes that a message carries. Of a longer message, only the first bytes are carried.
 inline constexpr std::uint32_t max_bytes = 256;
-/// To all that hear it.
+/// Receiver of a message to all robots that hear it.
 inline constexpr std::int64_t broadcast = -1;
 
 struct Payload {
   std::uint8_t bytes[max_bytes] = {};
 };
 
-/// A message that has come.
+/// A received message.
 struct Header {
   double from = -1;     ///< number of the robot that has sent it
-  double number = 0;    ///< of the message: counts the messages of its sender
-  double sent = 0;      ///< s: when the sender's radio got it from its control code
-  double received = 0;  ///< s: when its last bit was here
+  double number = 0;    ///< number of the message: counts the messages of its sender
+  double sent = 0;      ///< s: time at which the sender's radio got it from control code
+  double received = 0;  ///< s: time at which its last bit arrived
   double rssi = 0;      ///< dBm: received power
   double size = 0;      ///< bytes
   double first = 0;     ///< number of its first byte in radio.received.bytes
 };
 inline constexpr std::string_view header_labels[] = {"from", "number", "sent", "received", "rssi", "size", "first"};
 
-/// Messages so far. Those that are lost are counted by the receiver, but for queue, access and overrun.
+/// Numbers of messages so far. The receiver counts lost messages; the sender counts those lost by queue, access and
+/// overrun.
 struct Counters {
-  std::uint64_t sent = 0;            ///< their transmission is over
-  std::uint64_t received = 0;        ///< have come
-  std::uint64_t lost_signal = 0;     ///< too weak
+  std::uint64_t sent = 0;            ///< transmission has ended
+  std::uint64_t received = 0;        ///< by this radio
+  std::uint64_t lost_signal = 0;     ///< the signal was too weak
   std::uint64_t lost_error = 0;      ///< a bit was wrong, by noise alone
   std::uint64_t lost_collision = 0;  ///< lost to other transmissions, or this radio was sending
-  std::uint64_t lost_queue = 0;      ///< own: the queue was full
-  std::uint64_t lost_access = 0;     ///< own: the medium was never free
-  std::uint64_t lost_overrun = 0;    ///< own: control code wrote the next one before the radio ran
+  std::uint64_t lost_queue = 0;      ///< own messages: the queue was full
+  std::uint64_t lost_access = 0;     ///< own messages: the medium was never free
+  std::uint64_t lost_overrun = 0;    ///< own messages: control code wrote the next one before the radio ran
 };
 inline constexpr std::string_view counter_labels[] = {"sent",           "received",   "lost_signal", "lost_error",
                                                       "lost_collision", "lost_queue", "lost_access", "lost_overrun"};
 
 namespace detail {
-/// "b0" to "b255".
+/// Names of the bytes: "b0" to "b255".
 struct ByteNames {
   char text[max_bytes][4] = {};
   std::uint8_t length[max_bytes] = {};
@@ -78,7 +79,7 @@ MURO_VALUE_TYPE(radio::Counters, "muro.RadioCounters", u64, radio::counter_label
 
 namespace muro::keys {
 
-// To send: write bytes, size and receiver, then a number other than before.
+// Message to send: write bytes, size and receiver, then a new number.
 inline constexpr Key<radio::Payload> radio_send_bytes{"radio.send.bytes", "1", "of the message to send", Role::command};
 inline constexpr Key<std::uint32_t> radio_send_size{"radio.send.size", "1", "bytes of the message to send",
                                                     Role::command};
@@ -88,7 +89,7 @@ inline constexpr Key<std::int64_t> radio_send_number{
     "radio.send.number", "1", "of the message to send, counted up by its writer: another number is another message",
     Role::command};
 
-// What has come.
+// Received messages.
 inline constexpr Key<radio::Header> radio_received{"radio.received", "1, s, dBm", "list: the messages that have come"};
 inline constexpr Key<std::uint8_t> radio_received_bytes{"radio.received.bytes", "1",
                                                         "list: the bytes of these messages, one after the other"};

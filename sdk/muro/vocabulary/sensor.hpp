@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Properties of sensors, and what robots feel of themselves.
+// Properties of sensors, and measurements that robots make of themselves.
 #pragma once
 
 #include "muro/geometry.hpp"
@@ -14,7 +14,7 @@ inline constexpr Key<Pose> sensor_origin{"sensor.origin", "m",
 /// Constant on the sensor's object.
 inline constexpr Key<ObjectId> sensor_link{"sensor.link", "1", "the link or joint that the sensor is mounted on"};
 
-// What robots feel of themselves: properties of the sensor's object, named as the fields of sensor_msgs and nav_msgs.
+// Measurements of the robot itself: properties of the sensor's object, named as the fields of sensor_msgs and nav_msgs.
 // The device's frame is `sensor.origin` in the frame of the link that carries it.
 inline constexpr Key<Vec3> angular_velocity{"angular_velocity", "rad/s", "of the device, axes of the device"};
 inline constexpr Key<Vec3> linear_acceleration{
