@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Multi-body dynamics by the articulated-body algorithm, robots of one structure in the lanes of vector registers.
+// Multi-body dynamics by the articulated-body algorithm; robots of one structure are in the lanes of vector registers.
 #include <algorithm>
 #include <bit>
 #include <deque>
@@ -18,7 +18,7 @@ namespace {
 using namespace muro;
 using namespace muro::articulated;
 
-/// Memory of a kernel, one for each thread.
+/// Memory of a kernel; there is one for each thread.
 class WorkMemory {
  public:
   void* of(std::size_t bytes) {
@@ -95,7 +95,8 @@ class Articulated final : public Algorithm {
     return phases;
   }
 
-  /// Contacts first, since they look at robots that others move; then neighbours of one model, eight at a time.
+  /// Finds contacts first, since they read robots that others move. Then moves neighbours of one model, eight at a
+  /// time.
   void step(const Step& step, Range range) override {
     if (step.phase == 0) {
       for (std::uint32_t i = range.begin; i < range.end; ++i)
@@ -119,14 +120,14 @@ class Articulated final : public Algorithm {
 
  private:
   static constexpr std::uint32_t lane_width = 8;
-  static constexpr double hard_way = 1e-3;  ///< m: what comes farther in a step is stopped at once
+  static constexpr double hard_way = 1e-3;  ///< m: a contact point that comes farther in a step is stopped at once
 
-  /// An item: a robot that forces move, or one that nothing can move but its targets.
+  /// An item: a robot that forces move, or one that only its targets move.
   struct Served {
     Robot* robot = nullptr;
     multibody::KinematicRobot* by_targets = nullptr;
     watch::RobotWatch* watch = nullptr;
-    std::uint32_t model = 0, masses = 0;  ///< in models_, masses_
+    std::uint32_t model = 0, masses = 0;  ///< indices in models_, masses_
   };
 
   void connect_robot(Connector& c, const Item& item) {
@@ -145,10 +146,10 @@ class Articulated final : public Algorithm {
     served.robot->each_external([&](const SumIn<Wrench>& external) { served.watch->begin(&external); });
   }
 
-  /// Among those that are known; of a new one a copy is made.
+  /// Returns the number of `one` in `known`, to which a new one is added.
   template <class T>
   static std::uint32_t number_of(const T& one, std::vector<T>& known) {
-    const auto same = std::find(known.rbegin(), known.rend(), one);  // mostly the last one
+    const auto same = std::find(known.rbegin(), known.rend(), one);  // it is mostly the last one
     if (same != known.rend()) return std::uint32_t(known.rend() - same) - 1;
     known.push_back(one);
     return std::uint32_t(known.size() - 1);
@@ -201,17 +202,17 @@ class Articulated final : public Algorithm {
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
   TouchedBodies bodies_;
   std::vector<Model> models_;
-  std::vector<Structure> structures_;                              ///< of them
-  int most_bodies_ = 0, most_slots_ = 0, most_mimic_numbers_ = 0;  ///< of them
+  std::vector<Structure> structures_;                              ///< structures of the models
+  int most_bodies_ = 0, most_slots_ = 0, most_mimic_numbers_ = 0;  ///< largest numbers of the models
   std::vector<std::vector<Mass>> masses_;
   std::deque<Robot> robots_;
   std::deque<multibody::KinematicRobot> kinematic_robots_;
   std::deque<watch::RobotWatch> watches_;
-  std::vector<Served> served_;  ///< one an item
+  std::vector<Served> served_;  ///< one per item
   watch::Surroundings surroundings_;
 };
 
-/// What the user should know of the robots.
+/// Reports to the user what was changed in the robots, and which ones only targets move.
 void Articulated::report(Connector& c) const {
   std::vector<std::string_view> links;
   for (const Robot& r : robots_)
