@@ -212,7 +212,7 @@ class Articulated final : public Algorithm {
   watch::Surroundings surroundings_;
 };
 
-/// Reports to the user what was changed in the robots, and which ones only targets move.
+/// Reports to the user which links were changed, and which robots only targets move.
 void Articulated::report(Connector& c) const {
   std::vector<std::string_view> links;
   for (const Robot& r : robots_)

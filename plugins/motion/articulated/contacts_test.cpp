@@ -41,7 +41,8 @@ TEST(ABlockOnASlope, SlidesWithTheAccelerationOfCoulomb) {
   }
 }
 
-/// The foot bears much less than the contacts of its robot are made for, and rises slowly where it has landed.
+/// The foot bears much less than the contacts of its robot are made for, and its overlap from the landing decreases
+/// slowly.
 TEST(ALightFoot, ThatADriveHasPutDownStaysDown) {
   World w;
   w.add_ground();

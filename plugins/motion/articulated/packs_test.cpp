@@ -47,8 +47,8 @@ RobotTree robot_of(double scale, double restitution = 0) {
 }
 
 /// Returns the hashes of robots number `first` to `first` + `count` - 1 after 0.6 s on the ground. With restitution
-/// they are thrown at it, all at the same instant, some of them tilted. A plate lies on every third robot and moves to
-/// and fro.
+/// they are thrown at it, all at the same instant, some at an angle. Then every third lies under a plate that moves to
+/// and fro on it.
 std::vector<std::uint64_t> hashes_of(int first, int count, double restitution) {
   World w;
   w.add_ground(0.6);

@@ -227,7 +227,7 @@ RobotTree pressed_ball() {
 }
 
 TEST(FrictionBetweenLinks, HoldsAndSlidesAsCoulombSays) {
-  for (const double pressed : {1.1, 0.5}) {  // ratio to the friction that holds it
+  for (const double pressed : {1.1, 0.5}) {  // ratio to the force that is needed to hold it
     World w;
     w.add("r", pressed_ball());
     w.start({{"joints", std::string("passive")},

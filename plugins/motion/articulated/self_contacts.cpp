@@ -141,8 +141,7 @@ void SelfContacts::push(std::size_t i, const Law& law, double dt, int pairs) {
     return;
   }
   const double speed = velocity.dot(c.normal);
-  const double phase =
-      std::min(dt * std::sqrt(law.stiffness * along), most_phase);  // phase of the motion on the spring in a step
+  const double phase = std::min(dt * std::sqrt(law.stiffness * along), most_phase);  // rad: phase gained in a step
   const double omega = phase / dt, damping_per_spring = 2 / omega + dt;
   const double softening = softening_of(phase, pairs);
   const auto spring_of = [&](double inverse_mass) {
