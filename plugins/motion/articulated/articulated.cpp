@@ -149,7 +149,7 @@ class Articulated final : public Algorithm {
   /// Returns the number of `one` in `known`, to which a new one is added.
   template <class T>
   static std::uint32_t number_of(const T& one, std::vector<T>& known) {
-    const auto same = std::find(known.rbegin(), known.rend(), one);  // it is mostly the last one
+    const auto same = std::find(known.rbegin(), known.rend(), one);  // mostly it is the last one
     if (same != known.rend()) return std::uint32_t(known.rend() - same) - 1;
     known.push_back(one);
     return std::uint32_t(known.size() - 1);

@@ -18,7 +18,7 @@ struct JointTerms {
   S effort;   ///< N m or N
   S inertia;  ///< kg m^2 or kg, beside the bodies: armature, and the implicit terms of drives and dampers
   S rate;     ///< rad/s^2 or m/s^2: acceleration of a held joint, else 0
-  S is_free;  ///< 1, or 0: held
+  S is_free;  ///< 1; 0: the joint is held
 };
 
 /// State of a body and its joint within a step.

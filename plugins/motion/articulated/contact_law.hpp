@@ -201,7 +201,7 @@ MURO_INLINE MaskOf<S> is_impact(const ContactPoint<S>& p, const ContactLaw<S>& l
 /// Finds the response of a contact. `velocity`: m/s, of the point against what it touches; `more`: m/s^2, cross(w, v)
 /// of the body and gravity, in its frame, since accelerations are beyond these; `spins`: see ContactSlot; `dt`: s;
 /// `is_first`: in the first trial, when friction is linear about the slip at the begin of the step. The way from the
-/// body's origin to the point does not turn beyond the turn that `velocity` contains.
+/// body's origin to the point is assumed not to turn beyond the turn that `velocity` contains.
 template <bool is_first, class S>
 MURO_INLINE void touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const V3<S>& velocity, const V3<S>& more,
                        bool spins, double dt, ContactStep<S>& c) {

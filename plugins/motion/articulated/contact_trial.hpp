@@ -41,7 +41,7 @@ struct Misfit {
   MaskOf<S> is_drawn;     ///< the contact pulls
   MaskOf<S> pushes_now;   ///< it was tried without a force, but would push
   MaskOf<S> is_off_cone;  ///< its friction does not fit its slip and its load
-  MaskOf<S> turns_back;   ///< a part of `is_off_cone`: it slid, but friction would push it further
+  MaskOf<S> turns_back;   ///< part of `is_off_cone`: it slid, and its friction would now push it on
   V3<S> across;           ///< N: friction of the trial
   S most;                 ///< N: largest friction
   S held;                 ///< N s/m: sticking friction at this load, per slip at the end of the step

@@ -36,7 +36,7 @@ class Contacts {
     load_contacts(robots, count);
   }
 
-  /// N, N m: sum of what acts on bodies beside contacts, at the origin of the base.
+  /// N, N m: sum of the wrenches on bodies that are not from contacts, at the origin of the base.
   const V3<S>& external_force() const { return force_; }
   const V3<S>& external_torque() const { return torque_; }
 
@@ -78,7 +78,7 @@ class Contacts {
 
   /// Whether something is hit.
   bool hits() const { return any(hits_ > S(0)); }
-  /// Returns the robots of which something is hit, except those that another robot pushes or that touch a body that
+  /// Returns the robots of which something is hit. Without those that another robot pushes or that touch a body that
   /// moves on its own: these may get energy from there.
   MaskOf<S> keep_energy() const { return (hits_ > S(0)) & !((dot(force_, force_) > S(0)) | (moved_ > S(0))); }
 
@@ -189,7 +189,7 @@ class Contacts {
     for (int i = 0; i < count_of<S>; ++i) at.at[i] = wrenches_.at[i] ? wrenches_.at[i] + 6 * body : at_rest;
     return lane::load_twist(at);
   }
-  /// Sets `to` to the terms of what acts beside contacts.
+  /// Sets `to` to the terms of wrenches that are not from contacts.
   MURO_INLINE void set_wrench(int body, Inertia<S>& to) const {
     S* const numbers = &to.A.xx;
 #pragma GCC unroll 27
@@ -411,7 +411,7 @@ class Contacts {
   MURO_INLINE ContactOutcome<S> outcome_of(const ContactSlot<S>& slot) const {
     const BodyStep<S>& body = work_.bodies[slot.body];
     const ContactPoint<S>& p = slot.point;
-    V3<S> a = body.a + cross(body.alpha, p.arm);  // in the terms of body accelerations
+    V3<S> a = body.a + cross(body.alpha, p.arm);  // like the accelerations of bodies, beyond gravity
     if (slot.has_cells) a += dot(body.alpha, p.normal) * p.turn;
     ContactOutcome<S> o;
     o.force = slot.step.force(p.normal, a);

@@ -15,7 +15,7 @@ using lane::abs, lane::MaskOf, lane::max, lane::min, lane::select;
 /// Law of a joint in one step.
 template <class S>
 struct JointLaw {
-  S pull, drag;         ///< of the drive, with the effort pull - drag v'; N m or N, N m s/rad or N s/m
+  S pull, drag;         ///< N m or N, N m s/rad or N s/m: of the drive; its effort is pull - drag v'
   S velocity;           ///< rad/s or m/s: velocity that a drive holds
   S effort;             ///< N m or N: largest effort of the drive
   S damping;            ///< N m s/rad or N s/m

@@ -11,7 +11,7 @@ namespace {
 /// Bodies behind two joints, below the body from which both joints hang.
 struct Way {
   int anchor = 0;
-  std::vector<int> bodies;  ///< in rising order
+  std::vector<int> bodies;  ///< sorted, in rising order
 };
 
 /// Returns the way between the joints of two bodies.

@@ -68,7 +68,7 @@ class Robot {
     PositionTarget target;
     const double* position = nullptr;  ///< rad or m: position of the joint
     JointLimits limits;
-    double* to = nullptr;  ///< in targets_
+    double* to = nullptr;  ///< place in targets_
   };
   /// The base, or a link with shapes.
   struct LoadedLink {
@@ -116,10 +116,10 @@ class Robot {
   std::vector<Out<double>> positions_out_, velocities_out_, efforts_out_;  ///< one per body
   std::vector<double> targets_;  ///< targets of drives that interpolate: positions, then velocities
   std::vector<InterpolatedTarget> interpolated_;
-  std::vector<LoadedLink> links_;  ///< in the order of rigid_.loaded_links
+  std::vector<LoadedLink> links_;  ///< same order as rigid_.loaded_links
   bool has_contact_law_ = false;   ///< a contact algorithm adds to wrenches
   bool tells_contacts_ = false, tells_applied_ = false;
-  bool only_contacts_push_ = false;            ///< nothing but the contact algorithm adds to wrenches
+  bool only_contacts_push_ = false;            ///< only the contact algorithm adds to wrenches
   std::vector<std::uint32_t> touching_links_;  ///< indices of links_ that contacts push now or in the last step
   std::vector<double*> touching_wrenches_;     ///< wrenches of those that contacts with others push in this step
   bool links_are_clear_ = false;

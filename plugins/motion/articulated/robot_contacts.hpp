@@ -12,7 +12,7 @@
 
 namespace muro::articulated {
 
-/// The bodies of a scene that robots can touch, by object id.
+/// Bodies of a scene that robots can touch, by object id.
 class TouchedBodies {
  public:
   /// Connects shapes and contact worlds. [setup]
@@ -77,9 +77,9 @@ class RobotContacts {
 
   struct LinkPlace {
     ObjectId object = no_object;
-    std::uint32_t loaded_link = 0;  ///< in RobotModel
+    std::uint32_t loaded_link = 0;  ///< index in RobotModel
     int body = 0;
-    Quat orientation = Quat::Identity();  ///< in the body's frame
+    Quat orientation = Quat::Identity();  ///< orientation in the body's frame
   };
   const LinkPlace* place_of(ObjectId object) const;
 

@@ -20,7 +20,7 @@ struct KeptSelfContact {
 
 /// Response of a contact of two links in a step.
 struct SelfContact {
-  std::uint32_t link = 0, other_link = 0;  ///< in RobotModel::loaded_links
+  std::uint32_t link = 0, other_link = 0;  ///< indices in RobotModel::loaded_links
   std::uint32_t body = 0, other_body = 0;
   double share = 1;           ///< part of the stiffness of two bodies: 1 / the number of points in which they touch
   Vec3 force = Vec3::Zero();  ///< N, world, at the contact's point, on the first link; the second has the opposite
@@ -57,7 +57,7 @@ class SelfContacts {
   struct LinkPlace {
     ObjectId object = no_object;
     std::uint64_t name = 0;         ///< hash
-    std::uint32_t loaded_link = 0;  ///< in RobotModel
+    std::uint32_t loaded_link = 0;  ///< index in RobotModel
     std::uint32_t body = 0;
     In<Pose> pose;
     In<Twist> twist;

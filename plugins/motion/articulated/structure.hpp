@@ -31,7 +31,7 @@ struct Body {
   int slot = -1;          ///< place where inertias of its children add up; -1: it has no children
   int parent_slot = -1;   ///< `slot` of the parent
   bool first = false;     ///< it is the first child that is added to the slot of its parent
-  bool kept = false;      ///< it has children and its parent has others: what it hands on is kept for further trials
+  bool kept = false;      ///< it has children and its parent has others: the inertia that it hands on is kept
   double sign = 1;        ///< -1: the joint of the model turns about, or shifts along, the opposite axis
   double offset[3] = {};  ///< m: position of the origin in the parent's frame at joint position 0
   double turn[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< columns: axes of the frame in the parent's at joint position 0
@@ -59,15 +59,15 @@ struct Joint {
   // Offsets of its numbers from those of the first joint of the robot that has such numbers (RobotState).
   std::ptrdiff_t position = 0, velocity = 0, out_effort = 0, target = 0, target_velocity = 0, friction_loss = 0,
                  armature_loss = 0;
-  bool has_target_velocity = false;                           ///< it is a target of a position drive
-  bool has_friction_loss = false, has_armature_loss = false;  ///< from what drives it, beside its own
+  bool has_target_velocity = false;                           ///< a target velocity of a position drive is given
+  bool has_friction_loss = false, has_armature_loss = false;  ///< losses of what drives it, beside its own
 
   bool needs_inertia() const { return drive == Drive::position && (stiffness < 0 || drive_damping < 0); }
   friend bool operator==(const Joint&, const Joint&) = default;
 };
 
-/// Mimic joints and their leaders, and the bodies between these joints and the body from which they all hang, the
-/// anchor. Groups share no bodies; the anchor of one may be a body of another.
+/// Mimic joints and their leaders, and the bodies between these joints and their anchor: the body from which they all
+/// hang. Groups share no bodies; the anchor of one may be a body of another.
 struct MimicGroup {
   int anchor = 0;
   int first_way = 0, ways = 0;     ///< range in Structure::mimic_ways
@@ -75,7 +75,7 @@ struct MimicGroup {
 
   friend bool operator==(const MimicGroup&, const MimicGroup&) = default;
 };
-/// The bodies that the effort of a mimic joint and that of its leader reach below the anchor.
+/// Bodies below the anchor that the efforts of a mimic joint and of its leader reach.
 struct MimicWay {
   int body = 0;                     ///< the body whose joint follows
   int first_place = 0, places = 0;  ///< range in Structure::mimic_places: numbers of bodies of the group

@@ -10,15 +10,15 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-/// One contact of each robot of a pack, on the same body. Robots that lack one have a point that does not touch.
+/// Contacts of a pack on the same body, one of each robot. Robots that lack one have a point that does not touch.
 template <class S>
 struct ContactSlot {
   int body = 0;
   unsigned which = 0;                    ///< lanes that have a contact
-  unsigned resists_turning = 0;          ///< those of them whose surface resists turning
+  unsigned resists_turning = 0;          ///< lanes whose surface resists turning
   bool has_cells = false;                ///< in some robot, friction acts beside the point
   bool spins = false;                    ///< in some robot, the ends of the cell move about the place of friction
-  lane::Places<S, double> kept, wrench;  ///< of those lanes: the kept numbers, and the place to write its wrench
+  lane::Places<S, double> kept, wrench;  ///< places of those lanes: for the kept numbers, and for its wrench
   V3<S> velocity;                        ///< m/s: velocity of the point against what it touches; see ContactPoint::turn
   ContactPoint<S> point;
   TurningPoint<S> turning;

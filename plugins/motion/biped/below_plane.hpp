@@ -31,8 +31,8 @@ class LinksBelowPlane {
     }
   }
 
-  /// Reports the first link that is deeper than 1 mm, once for all robots that share `is_told`. `base`: pose of the
-  /// base of the robot. [step]
+  /// Reports the first link that is deeper than 1 mm, once for all robots that share the flag. `base`: pose of the base
+  /// of the robot. [step]
   void tell(Host& host, const GroundPlane& plane, const Pose& base, std::atomic<bool>& is_told) {
     if (is_told.load(std::memory_order_relaxed)) return;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -58,7 +58,7 @@ class LinksBelowPlane {
     Out<double> position;  ///< position of the joint that leads to it
     std::vector<Shape> shapes;
     std::string_view name;
-    Pose pose;  ///< scratch
+    Pose pose;  ///< used within a step
   };
 
   /// Returns the height (m) of the lowest point of a shape at `pose` above the plane; of the box around the shape.

@@ -181,7 +181,7 @@ class Biped final : public PerRobotAlgorithm<BipedRobot> {
   }
 
   std::uint32_t model_index(Feet feet) {
-    const auto known = std::find(models_.rbegin(), models_.rend(), feet);  // it is mostly the last one
+    const auto known = std::find(models_.rbegin(), models_.rend(), feet);  // mostly it is the last one
     if (known != models_.rend()) return std::uint32_t(models_.rend() - known) - 1;
     models_.push_back(std::move(feet));
     return std::uint32_t(models_.size() - 1);

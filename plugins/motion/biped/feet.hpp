@@ -13,7 +13,7 @@ namespace muro::biped {
 /// Data of the feet that robots of one model share.
 struct Feet {
   std::array<Leg, 2> legs;
-  std::array<Sole, 2> soles;  ///< in the frames of the links of the feet
+  std::array<Sole, 2> soles;  ///< soles in the frames of the links of the feet
   bool operator==(const Feet&) const = default;
 };
 

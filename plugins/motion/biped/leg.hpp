@@ -26,8 +26,8 @@ struct LegJoint {
   }
 };
 
-/// Pose of a foot in the frame of the base, and the velocity that the joints give the base when the foot is held: -J
-/// q', with J the Jacobian of the foot at the origin of the base.
+/// Pose of a foot in the frame of the base, and velocity of the base by the joints when the foot is held: -J q', with J
+/// the Jacobian of the foot at the origin of the base.
 struct FootMotion {
   Pose foot;                    ///< pose in the frame of the base
   Vec3 linear = Vec3::Zero();   ///< m/s: velocity of the base, in its axes
@@ -43,8 +43,7 @@ struct Leg {
            end.orientation.coeffs() == b.end.orientation.coeffs();
   }
 
-  /// Returns the pose of the foot in the frame of the base. `position(i)`: position of joint `i` of both legs, rad or
-  /// m.
+  /// Returns the foot in the frame of the base. `position(i)`: position of joint `i` of both legs, rad or m.
   template <class Position>
   Pose foot(const Position& position) const {
     Pose at;

@@ -39,8 +39,7 @@ class Footing {
   /// Returns the height above the plane of the lowest point of the sole of foot `i` (m), whose link is at `foot`.
   double height(std::uint32_t i, const Pose& foot) const;
 
-  /// Puts the robot on its feet wherever it is: after a start, after a hand-over, or when it was put elsewhere. `base`:
-  /// pose of its base.
+  /// Puts the robot on its feet wherever it is: after a start, a hand-over, or a move from outside. `base`: its pose.
   Stance stand_up(const Pose& base, const FootPoses& feet, const Stance& before) const;
   /// Moves the stance through a step in which the legs follow `q`; `end`: the feet at its end. Returns the height of
   /// the sole of the swing foot at the end (m).

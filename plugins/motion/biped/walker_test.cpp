@@ -78,9 +78,9 @@ TEST(CompassWalker, ClimbsAnInclinedPlane) {
   EXPECT_LT((way - plane.orientation * Vec3(5 * 2 * leg_length * std::sin(legs.a), 0, 0)).norm(), 1e-9);
 }
 
-/// Legs that swing to and fro against each other, and are shortened in turn, a part of the period later: s = a sin(w
-/// t), c = (c0 / 2) (1 -+ sin(w t + phase)). Feet are at one height when both are shortened alike, at w t = n pi -
-/// phase, and a foot comes down while the legs swing. All commands are smooth.
+/// Legs that swing to and fro against each other, and are shortened in turn, a part of the period later:
+/// s = a sin(w t), c = (c0 / 2) (1 -+ sin(w t + phase)). Feet are at one height when both are shortened alike, at
+/// w t = n pi - phase, and a foot comes down while the legs swing. All commands are smooth.
 struct Swing {
   double a = 20 * degree, lift = 0.03, phase = 0.8, omega = 2 * M_PI / 0.8274;
 
@@ -100,7 +100,7 @@ struct Swing {
   /// Returns the way of the hip along the plane in `t` (m). The left foot stands while its leg is shortened less.
   double way(double t) const {
     double sum = 0, from = 0;
-    bool left_stands = false;  // at first
+    bool left_stands = false;  // before the first change
     for (int n = 1;; ++n) {
       const double down = (n * M_PI - phase) / omega, to = std::min(down, t);
       const auto in_stance = [&](double at) {
