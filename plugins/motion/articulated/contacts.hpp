@@ -78,8 +78,8 @@ class Contacts {
 
   /// Whether something is hit.
   bool hits() const { return any(hits_ > S(0)); }
-  /// Returns the robots of which something is hit. Without those that another robot pushes or that touch a body that
-  /// moves on its own: these may get energy from there.
+  /// Returns the robots of which something is hit, without those that another robot pushes or that touch a body that
+  /// moves on its own. These may get energy from there.
   MaskOf<S> keep_energy() const { return (hits_ > S(0)) & !((dot(force_, force_) > S(0)) | (moved_ > S(0))); }
 
   /// Reports and keeps the results of contacts. Returns whether the results of some do not fit what was tried, so that

@@ -111,7 +111,7 @@ class Joints {
       if (lane::bits(stays) == all) continue;
       const JointPiece<S> found = meet(law, inertia, v - S(batch_.dt) * load / inertia, batch_.dt);
       const auto same = stays | (tried == found);
-      // a joint changes its piece twice at most
+      // from its second change on, a joint is tried as a damper
       S& changes = work_.changes[k];
       const auto wavers = (!same) & (changes >= S(1));
       changes = select(same, changes, changes + S(1));
