@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Accelerations of random trees against those of MuJoCo: mj_forward on the same model as MJCF.
+// Accelerations of random trees compared with those of MuJoCo: mj_forward on the same model as MJCF.
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
@@ -32,7 +32,7 @@ void write_body(std::ostream& out, const multibody::RobotModel& robot, std::size
   const Quat& q = body.origin.orientation;
   out << "<body pos='" << numbers_of(body.origin.position) << "' quat='" << q.w() << " " << q.x() << " " << q.y() << " "
       << q.z() << "'>\n";
-  out << "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>\n";  // set below
+  out << "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>\n";  // replaced below
   if (i == 0 && !robot.fixed_base) out << "<freejoint/>\n";
   if (i > 0)
     out << "<joint type='" << (body.joint == JointKind::revolute ? "hinge" : "slide") << "' axis='"
@@ -42,7 +42,7 @@ void write_body(std::ostream& out, const multibody::RobotModel& robot, std::size
   out << "</body>\n";
 }
 
-/// MuJoCo numbers bodies depth first.
+/// Numbers bodies as MuJoCo does: depth first.
 void number_bodies(const multibody::RobotModel& robot, std::size_t i, std::vector<std::size_t>& numbers) {
   numbers.push_back(i);
   for (std::size_t k = i + 1; k < robot.bodies.size(); ++k)
@@ -60,7 +60,7 @@ MujocoModel mujoco_model(const multibody::RobotModel& robot, const std::vector<s
   MujocoModel m;
   m.model.reset(mj_loadXML(folder.file("tree.xml", xml.str()).c_str(), nullptr, error, sizeof error));
   if (!m.model) throw std::runtime_error(error);
-  for (std::size_t n = 0; n < numbers.size(); ++n) {  // to the last digit, which MuJoCo's compiler does not keep
+  for (std::size_t n = 0; n < numbers.size(); ++n) {  // exact values, which MuJoCo's compiler does not keep
     const Inertia& inertia = robot.bodies[numbers[n]].inertia;
     const Eigen::SelfAdjointEigenSolver<Mat3> moments(inertia.tensor());
     Mat3 axes = moments.eigenvectors();
@@ -88,7 +88,7 @@ struct RandomState {
   Pose pose;
   Twist twist;
   std::vector<double> q, qd, effort;
-  std::vector<Wrench> wrenches;  ///< at origins of bodies, world axes
+  std::vector<Wrench> wrenches;  ///< at the origins of bodies, world axes
 
   RandomState(test::Randoms& random, std::size_t bodies, bool fixed) {
     pose = {Vec3(random.uniform(0, 3) * random.direction()), random.rotation()};
@@ -103,7 +103,7 @@ struct RandomState {
 
 using Values = std::vector<double>;
 
-/// Returns the first degree of freedom that is one of a joint.
+/// Sets the state. Returns the first degree of freedom of a joint.
 int set_state(const multibody::RobotModel& robot, const std::vector<std::size_t>& numbers, const RandomState& s,
               mjData& d) {
   int q = 0, v = 0;
@@ -122,7 +122,8 @@ int set_state(const multibody::RobotModel& robot, const std::vector<std::size_t>
   return v;
 }
 
-/// Linear and angular acceleration of a free base (world axes), then of the joints in the order of the model.
+/// Returns the linear and angular acceleration of a free base (world axes), then those of the joints in the order of
+/// the model.
 Values by_mujoco(const multibody::RobotModel& robot, const RandomState& s) {
   std::vector<std::size_t> numbers;
   number_bodies(robot, 0, numbers);
@@ -130,7 +131,7 @@ Values by_mujoco(const multibody::RobotModel& robot, const RandomState& s) {
   mjData& d = *m.data;
   const int v = set_state(robot, numbers, s, d);
   mj_kinematics(m.model.get(), &d);
-  for (std::size_t n = 0; n < numbers.size(); ++n) {  // at centres of mass
+  for (std::size_t n = 0; n < numbers.size(); ++n) {  // MuJoCo takes forces at centres of mass
     const Wrench& w = s.wrenches[numbers[n]];
     const mjtNum *origin = d.xpos + 3 * (n + 1), *centre = d.xipos + 3 * (n + 1);
     const Vec3 arm(origin[0] - centre[0], origin[1] - centre[1], origin[2] - centre[2]);

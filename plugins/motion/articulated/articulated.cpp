@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Multi-body dynamics by the articulated-body algorithm, robots of one structure in the lanes of vector registers.
+// Multi-body dynamics by the articulated-body algorithm; robots of one structure are in the lanes of vector registers.
 #include <algorithm>
 #include <bit>
 #include <deque>
@@ -16,7 +16,7 @@ namespace {
 using namespace muro;
 using namespace muro::articulated;
 
-/// Memory of a kernel, one for each thread.
+/// Memory of a kernel; there is one for each thread.
 class WorkMemory {
  public:
   void* of(std::size_t bytes) {
@@ -121,9 +121,9 @@ class Articulated final : public WatchedMotion {
   }
 
   static constexpr std::uint32_t lane_width = 8;
-  static constexpr double hard_way = 1e-3;  ///< m: what comes farther in a step is stopped at once
+  static constexpr double hard_way = 1e-3;  ///< m: a contact point that comes farther in a step is stopped at once
 
-  /// An item: a robot that forces move, or one that nothing can move but its targets.
+  /// An item: a robot that forces move, or one that only its targets move.
   struct Served {
     Robot* robot = nullptr;
     multibody::KinematicRobot* by_targets = nullptr;
@@ -147,10 +147,10 @@ class Articulated final : public WatchedMotion {
     served_[i].robot->each_external([&](const SumIn<Wrench>& external) { begin_watch(i, &external); });
   }
 
-  /// Among those that are known; of a new one a copy is made.
+  /// Returns the number of `one` in `known`, to which a new one is added.
   template <class T>
   static std::uint32_t number_of(const T& one, std::vector<T>& known) {
-    const auto same = std::find(known.rbegin(), known.rend(), one);  // mostly the last one
+    const auto same = std::find(known.rbegin(), known.rend(), one);  // mostly it is the last one
     if (same != known.rend()) return std::uint32_t(known.rend() - same) - 1;
     known.push_back(one);
     return std::uint32_t(known.size() - 1);
@@ -194,15 +194,15 @@ class Articulated final : public WatchedMotion {
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
   TouchedBodies bodies_;
   std::vector<Model> models_;
-  std::vector<Structure> structures_;                              ///< of them
-  int most_bodies_ = 0, most_slots_ = 0, most_mimic_numbers_ = 0;  ///< of them
+  std::vector<Structure> structures_;                              ///< structures of the models
+  int most_bodies_ = 0, most_slots_ = 0, most_mimic_numbers_ = 0;  ///< largest numbers of the models
   std::vector<std::vector<Mass>> masses_;
   std::deque<Robot> robots_;
   std::deque<multibody::KinematicRobot> kinematic_robots_;
   std::vector<Served> served_;  ///< one an item
 };
 
-/// What the user should know of the robots.
+/// Reports to the user which links were changed, and which robots only targets move.
 void Articulated::report(Connector& c) const {
   std::vector<std::string_view> links;
   for (const Robot& r : robots_)

@@ -15,12 +15,12 @@ inline constexpr double g = 9.81;  ///< m/s^2
 using Parameters = std::map<std::string, ParameterInput>;
 
 struct World : test::Scene {
-  /// All robots so far, at 1 kHz.
+  /// Starts the motion with all robots so far, at 1 kHz.
   void start(Parameters parameters = {}, double rate = 1000) {
     start(
         std::move(parameters), [] {}, rate);
   }
-  /// `add_others`: adds what this motion does not move.
+  /// Starts the motion. `add_others` adds what this motion does not move.
   void start(Parameters parameters, const std::function<void()>& add_others, double rate = 1000) {
     use("motion.articulated", rate, all_robots(), std::move(parameters));
     add_others();
@@ -30,7 +30,7 @@ struct World : test::Scene {
   double& of(const std::string& joint, const Key<double>& key) { return world().value(joint, key); }
   double q(const std::string& joint) { return of(joint, keys::joint_position); }
   double v(const std::string& joint) { return of(joint, keys::joint_velocity); }
-  /// N: what pushes the links of a robot.
+  /// Returns the sum of the contact forces on the links of a robot (N).
   Vec3 contact_force(const RobotView& robot) {
     Vec3 sum = Vec3::Zero();
     for (const Link& link : robot.links)
@@ -40,7 +40,7 @@ struct World : test::Scene {
   }
 };
 
-/// kg: of all links.
+/// Returns the mass of all links (kg).
 inline double mass_of(World& w, const RobotView& robot) {
   double sum = 0;
   for (const Link& link : robot.links)
@@ -49,10 +49,10 @@ inline double mass_of(World& w, const RobotView& robot) {
   return sum;
 }
 
-/// What moves with a robot. Links are up to date (refresh).
+/// Momentum and energy of a robot. Its links are up to date (refresh).
 struct Motion {
   Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero();  ///< about the origin
-  double kinetic = 0, potential = 0;                     ///< J; above z = 0
+  double kinetic = 0, potential = 0;                     ///< J; potential energy is 0 at z = 0
 };
 inline Motion motion_of(World& w, const RobotView& robot) {
   Motion m;

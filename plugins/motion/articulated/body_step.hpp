@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a step keeps of each body of a pack of robots, and how vectors pass between a body and its parent.
+// State of each body of a pack of robots within a step, and change of vectors between body and parent.
 #pragma once
 
 #include "muro/simd/rows.hpp"
@@ -11,35 +11,35 @@ inline namespace MURO_ISA {
 
 using lane::M3, lane::splat, lane::V3;
 
-/// How a joint moves in a step: qdd = rate + is_free (effort - what the bodies behind it need) / inertia. One per
-/// joint.
+/// Terms of the motion of a joint in a step: qdd = rate + is_free (effort - effort that the bodies behind it need) /
+/// inertia. There is one per joint.
 template <class S>
 struct JointTerms {
   S effort;   ///< N m or N
-  S inertia;  ///< kg m^2 or kg, beside that of the bodies: armature, and what drives and dampers do implicitly
-  S rate;     ///< rad/s^2 or m/s^2: of a held joint, else 0
-  S is_free;  ///< 1, or 0: held
+  S inertia;  ///< kg m^2 or kg, beside the bodies: armature, and the implicit terms of drives and dampers
+  S rate;     ///< rad/s^2 or m/s^2: acceleration of a held joint, else 0
+  S is_free;  ///< 1; 0: the joint is held
 };
 
-/// What a step keeps of each body and its joint.
+/// State of a body and its joint within a step.
 template <class S>
 struct BodyStep {
-  Turn<S> turn;    ///< of a hinge
+  Turn<S> turn;    ///< rotation by the joint, if that is a hinge
   S q, qd;         ///< rad or m, rad/s or m/s, in the direction of the body's axis
   V3<S> w, v;      ///< angular and linear velocity
   V3<S> Un, Uf;    ///< inertia times the joint's direction
-  S D;             ///< inertia that the joint moves, with its own terms
-  S give;          ///< how the joint gives way: 1 / D, or 0 where it is held
-  S bias;          ///< effort that it lacks when it does not accelerate
-  S needed;        ///< the same with the acceleration of its parent
+  S D;             ///< inertia that the joint moves, with the joint's own terms
+  S give;          ///< mobility of the joint: 1 / D, or 0 when it is held
+  S bias;          ///< effort that the joint lacks if it does not accelerate
+  S needed;        ///< the same if the parent accelerates as it does
   S qdd;           ///< acceleration of the joint
   V3<S> alpha, a;  ///< acceleration
-  M3<S> axes;      ///< of the frame in the world
+  M3<S> axes;      ///< axes of the frame in the world
   V3<S> origin;    ///< m, in the world
   JointTerms<S> terms;
 };
 
-/// Masses of as many robots as S has values: each has its own, or all have the same.
+/// Masses of as many robots as S has values. Each robot has its own, or all have the same.
 template <class S>
 struct Masses {
   lane::Places<S> at;  ///< Mass of body 0
@@ -54,7 +54,7 @@ struct Masses {
   }
 };
 
-// A body is `plain` whose joint is a hinge and that is parallel to its parent at joint position 0, as most are.
+// Most bodies are `plain`: the joint is a hinge, and at joint position 0 the body is parallel to its parent.
 
 template <bool plain, class S>
 MURO_INLINE V3<S> offset_of(const Body& b, S q) {
@@ -67,7 +67,7 @@ MURO_INLINE M3<S> turn_of(const Body& b) {
   return {splat<S>(b.turn), splat<S>(b.turn + 3), splat<S>(b.turn + 6)};
 }
 
-/// A spatial vector (angular w, linear v) of the parent in the frame of a body.
+/// Changes a spatial vector (angular w, linear v) from the frame of the parent to that of a body.
 template <int K, bool plain, class S>
 MURO_INLINE void into_body(const Body& b, const BodyStep<S>& own, V3<S>& w, V3<S>& v) {
   if (b.shifted || (!plain && b.slides)) v += cross(w, offset_of<plain>(b, own.q));

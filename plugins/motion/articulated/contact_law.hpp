@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What a contact adds to the inertia and the wrench of a body, so that its force is that of the end of the step: a
-// spring and damper along the normal that only push; across, a spring beside a damper while it sticks, and what the
-// cone leaves of that while it slides. Linearly implicit: force = start - K (acceleration of the point), with K = dt
-// (damping + dt stiffness), goes into the articulated inertia as J' K J, so that the answer is that of the whole robot
-// at no extra pass, and neither light feet nor hard ground bound the step.
+// The inertia and wrench that a contact adds to a body, so that its force is that of the end of the step. Along the
+// normal, a spring and a damper only push. Across it, a spring beside a damper acts while the contact sticks; while it
+// slides, the friction cone limits both. Linearly implicit: force = start - K (acceleration of the point), with K = dt
+// (damping + dt stiffness), goes into the articulated inertia as J' K J. So the whole robot responds at no extra pass,
+// and neither light feet nor hard ground limit the step.
 #pragma once
 
 #include "plugins/common/contact_geometry/contact_load.hpp"
@@ -14,86 +14,87 @@ inline namespace MURO_ISA {
 
 using lane::MaskOf, lane::max, lane::min, lane::select, lane::sqrt;
 
-/// m/s: so slow a spin lets nothing go that rests.
+/// m/s: a slower spin lets no contact slip that is at rest.
 inline constexpr double least_cell_speed = 5e-6;
 
-/// A contact point of as many robots as S has values; vectors in the frame of the body.
+/// A contact point of as many robots as S has values. Vectors are in the frame of the body.
 template <class S>
 struct ContactPoint {
   V3<S> arm;           ///< m, from the body's origin
-  V3<S> turn;          ///< m: velocity of where its friction acts against its own, for 1 rad/s about the normal
+  V3<S> turn;          ///< m: velocity of the point of friction against the contact point, for 1 rad/s about the normal
   V3<S> normal;        ///< unit, into the body
   S depth;             ///< m; below 0 where there is no contact
-  V3<S> spin;          ///< rad/s, of the body against what it touches; where that resists turning
-  V3<S> displacement;  ///< m, of the friction spring, across the normal
+  V3<S> spin;          ///< rad/s: spin of the body against what it touches, if the surface resists turning
+  V3<S> displacement;  ///< m: stretch of the friction spring, across the normal
   S friction;          ///< coefficient
   S restitution;
   S load;        ///< N: the normal force that bounds friction
-  S push;        ///< N: of spring and damper along the normal, see soft_push()
-  S speed;       ///< m/s, against what it touches, along the normal
-  V3<S> slip;    ///< m/s, of where its friction acts across the normal, about which friction counts as linear
-  S pushed;      ///< m/s: what other forces add to its velocity along the normal, where that is known
-  S gained;      ///< m/s: what its approach has gained since it touched, where that is known
+  S push;        ///< N: force of spring and damper along the normal, see soft_push()
+  S speed;       ///< m/s: velocity along the normal against what it touches
+  V3<S> slip;    ///< m/s: slip of the point of friction across the normal; friction is linear about it
+  S pushed;      ///< m/s: change of its velocity along the normal by other forces, if that is known
+  S gained;      ///< m/s: increase of its approach since it touched, if that is known
   S is_on;       ///< 1; 0: it does not push in this step
-  S sticks;      ///< 1: within its step it would turn back, so that it sticks, whatever that takes
-  S drags;       ///< 1: across the normal it is a damper, `drag`
+  S sticks;      ///< 1: it sticks at any force, since it would turn back within the step
+  S drags;       ///< 1: across the normal it is a damper of `drag`
   S drag;        ///< N s/m
-  S cell_speed;  ///< m/s: of the ends of its cell about where its friction acts, see give_of_cell()
+  S cell_speed;  ///< m/s: speed of the ends of its cell about the point of friction, see give_of_cell()
 };
-/// Resistance against rolling and spinning; of the same point.
+/// Resistance against rolling and spinning of the same point.
 template <class S>
 struct TurningPoint {
-  V3<S> displacement;   ///< rad, of the spring
+  V3<S> displacement;   ///< rad: turn of the spring
   S rolling, spinning;  ///< m
 };
 
-/// Of all points of a robot.
+/// The law of all contact points of a robot.
 template <class S>
 struct ContactLaw {
-  S stiffness, damping;  ///< N/m, N s/m: along the normal, and of the friction spring and the damper beside it
+  S stiffness, damping;  ///< N/m, N s/m: along the normal; also of the friction spring and its damper
   S held;                ///< N s/m: damping + dt stiffness
-  S mass;                ///< kg: what contacts may have to bear
-  S impact_speed;        ///< m/s: what comes faster rebounds
-  S hard_speed;          ///< m/s: what comes faster is stopped at once
-  S radius;              ///< m: of the springs against rolling and spinning
-  S most_depth;          ///< m: overlap of a tenth of a metre and more pushes no harder; less, less
-  S least_cap;           ///< m: at which one contact bears the robot twice
-  S for_weight;          ///< N/m: of `stiffness`, what bears the robot
-  S most_more;           ///< N: what the rest of it bears at most
+  S mass;                ///< kg: mass that contacts may have to bear
+  S impact_speed;        ///< m/s: a faster point rebounds
+  S hard_speed;          ///< m/s: a faster point is stopped at once
+  S radius;              ///< m: lever of the springs against rolling and spinning
+  S most_depth;          ///< m: depth that acts at an overlap of a tenth of a metre and more; less at a smaller one
+  S least_cap;           ///< m: acting depth at which one contact bears the robot twice
+  S for_weight;          ///< N/m: part of `stiffness` that bears the robot
+  S most_more;           ///< N: largest force of the rest of `stiffness`
 };
 
-/// What a contact does in a step, for afterwards.
+/// Response of a contact in a step, for use after the step is solved.
 template <class S>
 struct ContactStep {
   V3<S> start;      ///< N: force without acceleration
   S along, across;  ///< kg: K = across (1 - t t') + along n n' where it slides, else across 1 + (along - across) n n'
-  V3<S> slide;      ///< unit, the direction t in which it slides; 0 where it sticks
-  bool slides;      ///< some do
-  S held;           ///< N s/m: of friction that sticks, by the slip at the end of the step
-  V3<S> torque;     ///< N m: against rolling and spinning, without acceleration; where some surface resists that
-  S rolling, spinning;  ///< kg m^2: the same of these
+  V3<S> slide;      ///< unit: direction t in which it slides; 0 when it sticks
+  bool slides;      ///< in some robot, the contact slides
+  S held;           ///< N s/m: change of sticking friction by the slip at the end of the step
+  V3<S> torque;     ///< N m: against rolling and spinning, without acceleration; if some surface resists that
+  S rolling, spinning;  ///< kg m^2: change of `torque` by the angular acceleration
 
-  /// N, of the end of the step. `a`: m/s^2, of the point, across the normal of where its friction acts.
+  /// Returns the force at the end of the step (N). `a`: m/s^2, of the point; across the normal, of the point of
+  /// friction.
   MURO_INLINE V3<S> force(const V3<S>& normal, const V3<S>& a) const {
     V3<S> change = a;
     if (slides) change = select(dot(slide, slide) > S(0), a - dot(slide, a) * slide, a);
     return start - (across * change + ((along - across) * dot(normal, a)) * normal);
   }
-  /// N m, of the end of the step. `alpha`: rad/s^2, of the body.
+  /// Returns the torque at the end of the step (N m). `alpha`: rad/s^2, of the body.
   MURO_INLINE V3<S> moment(const V3<S>& normal, const V3<S>& alpha) const {
     return torque - (rolling * alpha + ((spinning - rolling) * dot(normal, alpha)) * normal);
   }
 };
 
-/// A spring of `stiffness` beside a damper, or what they may do at most.
+/// A spring of `stiffness` beside a damper, whose force has a limit.
 template <class S>
 struct BoundedSpring {
-  V3<S> force;  ///< at the rate `at`, with the spring of the end of the step
-  S per_rate;   ///< change of the force by that of the rate within the step
+  V3<S> force;  ///< force at the rate `at`, with the spring of the end of the step
+  S per_rate;   ///< change of the force per change of the rate within the step
   V3<S> slide;  ///< unit: the direction along which the force does not change; 0 for none
   bool slides;  ///< in some robot: `slide` is not 0
 
-  /// `held`: damping + dt stiffness; `counts`: where the result is used.
+  /// `held`: damping + dt stiffness; `counts`: robots for which the result is used.
   MURO_INLINE BoundedSpring(const V3<S>& displacement, const V3<S>& at, S stiffness, S held, S limit,
                             MaskOf<S> counts) {
     const V3<S> hold = stiffness * displacement + held * at;
@@ -109,10 +110,10 @@ struct BoundedSpring {
   }
 };
 
-/// A point stands for a cell of a line or face that touches. Where that spins, the ends of the cell move against its
-/// middle, and as long as they are the faster ones, friction of the cell is less than its limit in the measure of both
-/// speeds: a damper in series with the spring, which leaves this part of spring and damper. `held`: N s/m, of these;
-/// `limit`: N.
+/// A point represents a cell of a line or face that touches. When that spins, the ends of the cell move against its
+/// middle. While the ends are faster than the middle, the friction of the cell is less than its limit, by the ratio of
+/// both speeds. This is a damper in series with the spring. Returns the part of spring and damper that remains. `held`:
+/// N s/m, of these; `limit`: N.
 template <class S>
 MURO_INLINE S give_of_cell(const ContactPoint<S>& p, S held, S limit) {
   return select(p.cell_speed > S(0), limit / max(limit + held * p.cell_speed, S(1e-300)), S(1));
@@ -126,7 +127,7 @@ MURO_INLINE void add_about(Sym<S>& to, S x, S y, const V3<S>& n) {
   to.yz += b.y * n.z, to.zx += b.z * n.x, to.xy += b.x * n.y;
 }
 
-/// Takes J' x t t' J away.
+/// Subtracts J' x t t' J.
 template <class S>
 MURO_INLINE void take_along(const V3<S>& r, const V3<S>& t, S x, Inertia<S>& to) {
   const V3<S> m = cross(r, t), a = m * x, c = t * x;
@@ -137,8 +138,8 @@ MURO_INLINE void take_along(const V3<S>& r, const V3<S>& t, S x, Inertia<S>& to)
   to.C.yz -= c.y * t.z, to.C.zx -= c.z * t.x, to.C.xy -= c.x * t.y;
 }
 
-/// Adds J' K J and J' start. `has_cells`: friction may act beside the point, which the spin about the normal moves by
-/// `turn`: that is turn x normal farther.
+/// Adds J' K J and J' start. `has_cells`: friction may act beside the point. The spin about the normal moves that place
+/// by `turn`, so it is farther by turn x normal.
 template <class S>
 MURO_INLINE void add_terms(const ContactPoint<S>& p, const ContactStep<S>& c, bool has_cells, Inertia<S>& to) {
   const V3<S>&n = p.normal, m = cross(p.arm, n);
@@ -167,15 +168,15 @@ MURO_INLINE void add_terms(const ContactPoint<S>& p, const ContactStep<S>& c, bo
   if (has_cells) to.n -= dot(p.turn, c.start) * n;
 }
 
-/// N: of spring and damper along the normal. `speed`: m/s, away from what is touched.
+/// Returns the force of spring and damper along the normal (N). `speed`: m/s, away from what is touched.
 template <class S>
 MURO_INLINE S soft_push(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed) {
   const S own = law.for_weight * contact_geometry::parted_depth(p.depth, law.most_depth, law.least_cap);
   return own + min((law.stiffness - law.for_weight) * p.depth, law.most_more) - law.held * speed;
 }
 
-/// Whether a point pushes: it is in, and not on its way out faster than its spring and damper, or after a rebound.
-/// `push`: as soft_push says.
+/// Whether a point pushes: it overlaps, and does not leave faster than its spring and damper, or after a rebound.
+/// `push`: result of soft_push().
 template <class S>
 MURO_INLINE MaskOf<S> pushes(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed, S push) {
   const MaskOf<S> is_in = p.depth > S(0), is_elastic = p.restitution > S(0);
@@ -185,22 +186,22 @@ MURO_INLINE MaskOf<S> pushes(const ContactPoint<S>& p, const ContactLaw<S>& law,
   return is_in & ((push > S(0)) | is_hit) & !rebounds;
 }
 
-/// N: what the normal force may be, for friction of a point whose last one is not known.
+/// Returns the expected normal force (N), for the friction of a point whose last load is not known.
 template <class S>
 MURO_INLINE S expected_load(const ContactPoint<S>& p, const ContactLaw<S>& law, S speed, S push, double dt) {
   return max(min(push, law.mass * S(1 / dt) * max(-speed, S(0)) + law.stiffness * p.depth), S(0));
 }
 
-/// Whether a point is stopped, or thrown back, within a step. `approach`: m/s, away from what is touched.
+/// Whether a point is stopped or thrown back within a step. `approach`: m/s, away from what is touched.
 template <class S>
 MURO_INLINE MaskOf<S> is_impact(const ContactPoint<S>& p, const ContactLaw<S>& law, S approach) {
   return ((p.restitution > S(0)) & (approach < -law.impact_speed)) | (approach < -law.hard_speed);
 }
 
-/// `velocity`: m/s, of the point against what it touches; `more`: m/s^2, cross(w, v) of the body and gravity, in its
-/// frame, since accelerations count from them; `spins`: see ContactSlot; `dt`: s; `is_first`: in the first trial, where
-/// friction counts as linear about the slip at the begin of the step. The way from the body's origin to the point
-/// counts as one that does not turn beyond what `velocity` has of it.
+/// Finds the response of a contact. `velocity`: m/s, of the point against what it touches; `more`: m/s^2, cross(w, v)
+/// of the body and gravity, in its frame, since accelerations are beyond these; `spins`: see ContactSlot; `dt`: s;
+/// `is_first`: in the first trial, when friction is linear about the slip at the begin of the step. The way from the
+/// body's origin to the point is assumed not to turn beyond the turn that `velocity` contains.
 template <bool is_first, class S>
 MURO_INLINE void touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const V3<S>& velocity, const V3<S>& more,
                        bool spins, double dt, ContactStep<S>& c) {
@@ -208,7 +209,7 @@ MURO_INLINE void touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const
   const V3<S> none{zero, zero, zero};
   const S speed = p.speed;
   const MaskOf<S> is_on = p.is_on > zero;
-  // along: spring and damper; an impact reaches the velocity of its rebound, whatever it takes
+  // along the normal: spring and damper; an impact reaches the velocity of its rebound at any force
   S push = p.push, along = h * law.held;
   c.held = law.held;
   const S approach = speed + p.pushed;
@@ -241,7 +242,7 @@ MURO_INLINE void touch(const ContactPoint<S>& p, const ContactLaw<S>& law, const
   c.start = c.force(p.normal, more);
 }
 
-/// Resistance against rolling and spinning of the same point. Adds to `c` and to the inertia of the body.
+/// Adds the resistance of the point against rolling and spinning to `c` and to the inertia of the body.
 template <class S>
 MURO_INLINE void resist(const ContactPoint<S>& p, const TurningPoint<S>& t, const ContactLaw<S>& law, double dt,
                         ContactStep<S>& c, Inertia<S>& to) {

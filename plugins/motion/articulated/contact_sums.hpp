@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What contacts do to the bodies that they are on, in all.
+// Sum of the contact wrenches on each body.
 #pragma once
 
 #include "work.hpp"
@@ -7,7 +7,7 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-/// Adds up the contacts of a pack of robots, body by body, and tells each robot the sums of its bodies.
+/// Adds up the contacts of a pack of robots, body by body, and writes the sums of its bodies for each robot.
 template <class S>
 class ContactSums {
  public:
@@ -19,8 +19,8 @@ class ContactSums {
     body_ = none;
     for (int i = 0; i < lane::count_of<S>; ++i) next_[i] = first_[i];
   }
-  /// A contact of the robots `which`, bodies in rising order: N, m, N m, in the axes of the world; `lever`: from the
-  /// origin of the body.
+  /// Adds a contact of the robots `which`, bodies in rising order: N, m, N m, in the axes of the world; `lever`: from
+  /// the origin of the body.
   MURO_INLINE void add(int body, unsigned which, const V3<S>& force, const V3<S>& lever, const V3<S>& moment) {
     if (body != body_) {
       tell();
@@ -38,7 +38,7 @@ class ContactSums {
     torque_ += select(has_one, torque, zero());
     torque_ += select(has_one, moment, zero());
   }
-  /// The sums of the body whose contacts came last.
+  /// Writes the sums of the body whose contacts were added last.
   MURO_INLINE void tell() {
     if (body_ == none) return;
     body_ = none;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contacts of a step are solved by trial: each is tried as it was in the last step, and where that is not what comes of
-// it, with what comes next.
+// Contacts of a step are solved by trial. Each is tried in its state of the last step. If the result does not fit that
+// state, the next trial uses the state that follows from the result.
 #pragma once
 
 #include "work.hpp"
@@ -8,16 +8,16 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-/// What a contact does after a trial; in the frame of the body.
+/// Result of a contact after a trial, in the frame of the body.
 template <class S>
 struct ContactOutcome {
   V3<S> force;     ///< N
-  S load;          ///< N: along the normal
-  V3<S> velocity;  ///< m/s: of the point against what it touches, at the end of the step
-  V3<S> slip;      ///< m/s: the same across the normal
+  S load;          ///< N: force along the normal
+  V3<S> velocity;  ///< m/s: velocity of the point against what it touches, at the end of the step
+  V3<S> slip;      ///< m/s: the part of `velocity` across the normal
 };
 
-/// N: the load that friction with this load leads to, as far as two trials tell (the secant method).
+/// Returns the load (N) at which friction and load agree, estimated from two trials (the secant method).
 template <class S>
 MURO_INLINE S likely_load(const ContactSlot<S>& slot, S found) {
   const S change = slot.point.load - slot.tried_load, slope = (found - slot.found_load) / change;
@@ -26,28 +26,28 @@ MURO_INLINE S likely_load(const ContactSlot<S>& slot, S found) {
   return select(tells, max(meet, S(0)), found);
 }
 
-/// Where the search for what contacts do stands.
+/// Stage of the search for the states of contacts.
 enum class Search {
-  pieces,  ///< each takes the piece that it has come to
-  drags,   ///< what is not found is a damper of what friction may be, which never turns back
-  yields,  ///< what is not found by that is a lesser damper, if only it stays within its cone
-  ends,    ///< what is not found by that does without friction
+  pieces,  ///< each contact takes the piece of its law that it has reached
+  drags,   ///< a contact without a solution is a damper with the force of friction, which never turns back
+  yields,  ///< a contact still without a solution is a weaker damper, if that stays within its cone
+  ends,    ///< a contact still without a solution has no friction
 };
 
-/// What a contact was tried with is not what comes of it.
+/// Difference between the state in which a contact was tried and its result.
 template <class S>
 struct Misfit {
-  MaskOf<S> any;          ///< of what follows
-  MaskOf<S> is_drawn;     ///< it pulls
-  MaskOf<S> pushes_now;   ///< it was let go, and would push
-  MaskOf<S> is_off_cone;  ///< its friction is not that of its slip and its load
-  MaskOf<S> turns_back;   ///< of these: it slid, and would push on
-  V3<S> across;           ///< N: its friction
-  S most;                 ///< N: that friction may be
-  S held;                 ///< N s/m: of friction that sticks with this load, by the slip at the end of the step
+  MaskOf<S> any;          ///< one of the following cases
+  MaskOf<S> is_drawn;     ///< the contact pulls
+  MaskOf<S> pushes_now;   ///< it was tried without a force, but would push
+  MaskOf<S> is_off_cone;  ///< its friction does not fit its slip and its load
+  MaskOf<S> turns_back;   ///< part of `is_off_cone`: it slid, and its friction would now push it on
+  V3<S> across;           ///< N: friction of the trial
+  S most;                 ///< N: largest friction
+  S held;                 ///< N s/m: sticking friction at this load, per slip at the end of the step
 };
 
-/// `weight`: N, of the robot.
+/// Compares a trial with its result. `weight`: N, of the robot.
 template <class S>
 MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>& o, const ContactLaw<S>& law, S weight,
                              Search search) {
@@ -66,7 +66,7 @@ MURO_INLINE Misfit<S> misfit(const ContactSlot<S>& slot, const ContactOutcome<S>
   if (lane::bits(is_small) != lane::all_lanes<S>) part = select(is_small, part, -most / sqrt(max(square, S(1e-24))));
   const V3<S> friction = hold * part;
   m.most = most;
-  // what friction lacks in a step comes in the next ones, but for impacts
+  // friction that a step lacks comes in the next steps, except in impacts
   constexpr double precision = 0.1, of_weight = 1e-3, of_cone = 0.005, of_impact = 0.001;
   const V3<S> lack = friction - m.across;
   const S limit = S(1 + of_cone) * most;
@@ -92,7 +92,7 @@ template <class S>
 MURO_INLINE void revise(ContactSlot<S>& slot, const ContactOutcome<S>& o, const Misfit<S>& m, Search search) {
   ContactPoint<S>& p = slot.point;
   const S zero(0), tried_load = p.load;
-  // friction that a load is to bear which it takes away itself
+  // the friction itself takes away the load that is to cause it
   const MaskOf<S> by_friction = m.is_drawn & (p.friction > zero) & (p.load > zero), pulls = m.is_drawn & !by_friction;
   p.is_on = select(pulls, zero, select(m.pushes_now, S(1), p.is_on));
   slot.rests = select(m.pushes_now, zero, slot.rests);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The contacts and external wrenches of a pack of robots within a step.
+// Contacts and external wrenches of a pack of robots within a step.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,9 @@ inline namespace MURO_ISA {
 using contact_geometry::load_mean_over, contact_geometry::standard_gravity;
 using lane::any, lane::as_read, lane::count_of, lane::load_rows, lane::Places;
 
-/// What robots have that do not touch: far from everything, at rest.
+/// Contact of a robot that does not touch: far from everything, at rest.
 inline constexpr double no_contact[11] = {0, 0, 0, 0, 0, 1, -1}, at_rest[6] = {};
-/// Read alone: no lane that has none stores what it keeps.
+/// Memory that is only read: a lane without a contact stores nothing.
 inline double nothing_kept[kept_numbers] = {};
 inline ContactExtent no_extent;
 inline const KernelContact no_kernel_contact{.place = no_contact, .kept = nothing_kept, .extent = &no_extent};
@@ -25,7 +25,8 @@ inline const KernelContact no_kernel_contact{.place = no_contact, .kept = nothin
 template <class S>
 class Contacts {
  public:
-  /// Finds which contacts go together, and what they and wrenches add to their bodies. Bodies have been placed.
+  /// Finds the contacts that go together, and the terms that they and wrenches add to their bodies. Bodies have been
+  /// placed.
   Contacts(const Batch& batch, const RobotState* robots, int count, const Masses<S>& masses, Work<S>& work)
       : batch_(batch), work_(work), gravity_(splat<S>(batch.gravity)), sums_(robots, count) {
     for (int k = 0; k < batch.structure.count; ++k) work.acts_on[k] = nullptr;
@@ -35,11 +36,11 @@ class Contacts {
     load_contacts(robots, count);
   }
 
-  /// N, N m: the sum of what acts on bodies beside contacts, at the origin of the base.
+  /// N, N m: sum of the wrenches on bodies that are not from contacts, at the origin of the base.
   const V3<S>& external_force() const { return force_; }
   const V3<S>& external_torque() const { return torque_; }
 
-  /// Adds what contacts have done to a robot of one body, in the middle of the step.
+  /// Adds the wrench of contacts on a robot of one body, in the middle of the step.
   void add_to(V3<S>& force, V3<S>& torque) const {
     const BodyStep<S>& body = work_.bodies[0];
     for (int i = 0; i < work_.contact_count; ++i) {
@@ -52,7 +53,8 @@ class Contacts {
     }
   }
 
-  /// s: how long before the step that which now comes in has touched; the mean by forces.
+  /// Returns the time from first touch to the begin of the step (s), for contacts that come in; the mean is weighted by
+  /// forces.
   S time_since_touch() const {
     const S zero(0);
     S sum(0), weighted(0);
@@ -66,7 +68,7 @@ class Contacts {
     return select(sum > zero, weighted / max(sum, S(1e-300)), zero);
   }
 
-  /// What contacts and wrenches add to their bodies, after settle() has changed what is tried.
+  /// Adds the terms of contacts and wrenches to their bodies, after settle() has changed what is tried.
   void add_terms() {
     for (int k = 0; k < batch_.structure.count; ++k)
       if (work_.acts_on[k] && work_.changed[k]) set_wrench(k, work_.external[k]);
@@ -76,12 +78,12 @@ class Contacts {
 
   /// Whether something is hit.
   bool hits() const { return any(hits_ > S(0)); }
-  /// Robots of which something is hit, but those that another robot pushes, or that touch what moves by itself: these
-  /// may get energy from there.
+  /// Returns the robots of which something is hit, without those that another robot pushes or that touch a body that
+  /// moves on its own. These may get energy from there.
   MaskOf<S> keep_energy() const { return (hits_ > S(0)) & !((dot(force_, force_) > S(0)) | (moved_ > S(0))); }
 
-  /// Tells and keeps what contacts have done. Returns whether some have not done what was tried, but will do in the
-  /// next trial.
+  /// Reports and keeps the results of contacts. Returns whether the results of some do not fit what was tried, so that
+  /// a further trial is needed.
   bool settle(Search search) {
     bool is_changed = false;
     sums_.start();
@@ -98,7 +100,7 @@ class Contacts {
     if (!is_changed) sums_.tell();
     return is_changed;
   }
-  /// The same, of the last trial.
+  /// Reports and keeps the results of the last trial.
   void settle() {
     sums_.start();
     for (int i = 0; i < work_.contact_count; ++i) keep(work_.contacts[i], outcome_of(work_.contacts[i]));
@@ -128,13 +130,15 @@ class Contacts {
             stiffness,
             S(0)};
   }
-  /// Drives may press harder than the robot weighs: what a point has borne in the mean it goes on to bear.
+  /// Finds the load of a point. Drives may press harder than the robot weighs, so a point goes on to bear its mean
+  /// load.
   MURO_INLINE void find_what_it_bears(ContactSlot<S>& slot) const {
     const S borne = slot.mean_load, own = S(standard_gravity) * law_.mass;
     slot.bears_more = any(borne > own);
     if (slot.bears_more) slot.more = min(max(borne / own, S(1)), S(contact_geometry::most_weights));
   }
-  /// What moves by itself presses as hard as its contact is stiff: a harder one would be pressed harder.
+  /// Forgets the mean load on bodies that move on their own. They press as hard as the contact is stiff, and would
+  /// press a stiffer contact harder.
   void forget_what_squeezes(const KernelContact* const (&of_robot)[count_of<S>], ContactSlot<S>& slot) const {
     for (int i = 0; i < count_of<S>; ++i)
       if (of_robot[i]->other) set(slot.mean_load, i, 0);
@@ -185,7 +189,7 @@ class Contacts {
     for (int i = 0; i < count_of<S>; ++i) at.at[i] = wrenches_.at[i] ? wrenches_.at[i] + 6 * body : at_rest;
     return lane::load_twist(at);
   }
-  /// Of what acts beside contacts.
+  /// Sets `to` to the terms of wrenches that are not from contacts.
   MURO_INLINE void set_wrench(int body, Inertia<S>& to) const {
     S* const numbers = &to.A.xx;
 #pragma GCC unroll 27
@@ -196,7 +200,7 @@ class Contacts {
     to.n = -transposed_times(work_.bodies[body].axes, torque);
   }
 
-  /// The next contacts of all robots that are on the body with the lowest number make up a slot.
+  /// Loads the contacts into slots. The next contacts of all robots on the body with the lowest number make a slot.
   void load_contacts(const RobotState* robots, int count) {
     KernelContact *next[count_of<S>], *end[count_of<S>];
     double* wrench[count_of<S>];
@@ -256,7 +260,7 @@ class Contacts {
     }
   }
 
-  /// `cell`: m, world: from the points to where their friction acts, of faces of alike robots; else null.
+  /// Loads a slot. `cell`: m, world, from the points to where their friction acts, in faces of alike robots; else null.
   void load_slot(const KernelContact* const (&of_robot)[count_of<S>], const V3<S>* cell, ContactSlot<S>& slot) {
     Places<S> place, kept;
     unsigned traits = 0, common = ~0u;
@@ -272,7 +276,7 @@ class Contacts {
     const bool has_rims = traits & KernelContact::has_rim, has_cells = cell || traits & KernelContact::has_cell,
                has_lines = traits & KernelContact::may_be_line,
                are_ends = alike_ && common & KernelContact::may_be_line,
-               are_second = are_ends && common & KernelContact::is_second;  // loaded with the first
+               are_second = are_ends && common & KernelContact::is_second;  // these were loaded with the first
     slot.has_cells = has_cells || has_lines;
     const BodyStep<S>& body = work_.bodies[slot.body];
     const S zero(0);
@@ -342,11 +346,11 @@ class Contacts {
     const S speed = p.speed = dot(slot.velocity, p.normal);
     p.slip = slot.velocity - speed * p.normal;
     p.pushed = knows_pushes_ ? S(batch_.dt) * dot(pushed_a_ + cross(pushed_alpha_, p.arm), p.normal) : zero;
-    // what has borne nothing in the last step is tried without
+    // a contact that bore nothing in the last step is tried without a force
     const S push = p.push = soft_push(p, law, speed);
     const MaskOf<S> bore_nothing = load < zero, is_on = pushes(p, law, speed, push) & !bore_nothing;
     p.is_on = select(is_on, S(1), zero);
-    // what bears little on its way out may push on: its speed at the begin of the step does not tell
+    // a contact that bears little on its way out may push on: its speed at the begin of the step does not show that
     slot.rests = select(is_on, zero, S(1));
     p.sticks = p.drags = p.drag = zero;
     slot.tried_load = slot.found_load = S(-1);
@@ -359,14 +363,14 @@ class Contacts {
     hits_ += select(is_hit, S(1), zero);
     if (batch_.structure.count == 1)
       p.gained = time_since_touch(slot) * max(-dot(work_.drifts[slot.body] - cross(body.w, body.v), p.normal), zero);
-    // it is hit where its surface is, before it went in
+    // the impact is at the surface, before the point went in
     const V3<S> in = select(is_hit, S(-0.5) * p.depth, zero) * p.normal, turning = cross(body.w, in);
     p.arm += in, slot.velocity += turning;
     p.speed = dot(slot.velocity, p.normal), p.slip = slot.velocity - p.speed * p.normal;
   }
 
-  /// m, world: from the points to the middles of their cells, where they are ends of lines. `at`, `other`: points and
-  /// normals.
+  /// Returns the shifts from points to the middles of their cells (m, world), for ends of lines. `at`, `other`: points
+  /// and normals.
   MURO_INLINE static V3<S> shift_in_line(const S* at, const S* other) {
     const MaskOf<S> is_line =
         dot(V3<S>{at[3], at[4], at[5]}, V3<S>{other[3], other[4], other[5]}) > S(contact_geometry::same_direction);
@@ -379,7 +383,7 @@ class Contacts {
     load_rows(places_of(of_robot, [](auto& c) { return c.partner ? c.partner : c.place; }), 0, other);
     return shift_in_line(at, other);
   }
-  /// Of each robot what `get` finds in its contact.
+  /// Returns for each robot what `get` finds in its contact.
   template <class Get>
   MURO_INLINE static Places<S> places_of(const KernelContact* const (&of_robot)[count_of<S>], const Get& get) {
     Places<S> places;
@@ -387,14 +391,14 @@ class Contacts {
     return places;
   }
 
-  /// s, of one that comes in.
+  /// Returns the time since first touch of a contact that comes in (s).
   MURO_INLINE S time_since_touch(const ContactSlot<S>& slot) const {
     constexpr double least = 1e-3;  // m/s
     const S approach = -dot(slot.velocity, slot.point.normal);
     return select(approach > S(least), min(slot.point.depth / max(approach, S(least)), S(batch_.dt)), S(0));
   }
 
-  /// A robot that is one body: what wrenches do to it is known before contacts are.
+  /// Finds the effect of wrenches on a robot that is one body: there it is known before that of contacts.
   void find_pushes(const Masses<S>& masses) {
     knows_pushes_ = has_wrenches_ && batch_.structure.count == 1 && !batch_.structure.fixed;
     if (!knows_pushes_) return;
@@ -407,7 +411,7 @@ class Contacts {
   MURO_INLINE ContactOutcome<S> outcome_of(const ContactSlot<S>& slot) const {
     const BodyStep<S>& body = work_.bodies[slot.body];
     const ContactPoint<S>& p = slot.point;
-    V3<S> a = body.a + cross(body.alpha, p.arm);  // as accelerations of bodies say it
+    V3<S> a = body.a + cross(body.alpha, p.arm);  // like the accelerations of bodies, beyond gravity
     if (slot.has_cells) a += dot(body.alpha, p.normal) * p.turn;
     ContactOutcome<S> o;
     o.force = slot.step.force(p.normal, a);
@@ -424,13 +428,13 @@ class Contacts {
     const S load = select(is_on, max(o.load, S(0)), S(0));
     const V3<S> none{S(0), S(0), S(0)};
     V3<S> slipped = o.slip;
-    if (slot.spins)  // less what the damper behind the spring does
+    if (slot.spins)  // minus the way of the damper behind the spring
       slipped += (o.force - o.load * p.normal) * (p.cell_speed / max(p.friction * max(p.load, load), S(1e-12)));
     const V3<S> displacement =
         bounded(p.displacement + S(batch_.dt) * slipped, p.friction * load, law_of(slot).stiffness);
     const V3<S> d = body.axes * select(is_on, displacement, none);
     const V3<S>& way = slot.way;
-    const S counted = select(slot.comes_in > S(0), slot.mean_load, load);  // impacts do not press
+    const S counted = select(slot.comes_in > S(0), slot.mean_load, load);  // impacts do not count as load
     const S mean = slot.mean_load + S(mean_part_) * (counted - slot.mean_load);
     store_numbers(slot.kept, 3, {way.x, way.y, way.z, d.x, d.y, d.z, select(load > S(0), load, S(unloaded)), mean},
                   slot.which);
@@ -447,7 +451,7 @@ class Contacts {
     sums_.add(slot.body, slot.which, force, slot.lever, moment);
   }
 
-  /// A displacement whose spring does no more than `limit`.
+  /// Returns the displacement, shortened so that its spring does no more than `limit`.
   MURO_INLINE static V3<S> bounded(const V3<S>& displacement, S limit, S stiffness) {
     const S square = dot(displacement, displacement), stretch = stiffness * stiffness * square;
     const MaskOf<S> is_far = stretch > limit * limit;
@@ -467,18 +471,18 @@ class Contacts {
   Work<S>& work_;
   V3<S> gravity_;
   ContactLaw<S> law_, law_of_more_;
-  S weight_;              ///< N: what contacts may have to bear
-  double mean_part_ = 0;  ///< of mean loads: what the last step makes of them
+  S weight_;              ///< N: weight that contacts may have to bear
+  double mean_part_ = 0;  ///< share of the last step in mean loads
   Places<S> wrenches_;
   bool has_wrenches_ = false;
   bool alike_ = false;      ///< contacts of all robots are on the same bodies
-  unsigned tell_each_ = 0;  ///< robots that are told the wrench of each contact
+  unsigned tell_each_ = 0;  ///< robots that get the wrench of each contact
   ContactSums<S> sums_;
-  S ends_[2][9];  ///< places of both ends of a line, of robots that are alike
-  S hits_{0};     ///< above 0 where something is hit
-  S moved_{0};    ///< above 0 where something that is touched moves
+  S ends_[2][9];  ///< place numbers of both ends of a line, of robots that are alike
+  S hits_{0};     ///< above 0 for robots of which something is hit
+  S moved_{0};    ///< above 0 for robots that touch something that moves
   bool knows_pushes_ = false;
-  V3<S> pushed_alpha_, pushed_a_;  ///< by wrenches alone, where pushes are known
+  V3<S> pushed_alpha_, pushed_a_;  ///< accelerations by wrenches alone, if pushes are known
   V3<S> force_, torque_;
 };
 

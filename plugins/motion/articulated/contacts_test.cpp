@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Contacts and friction of single bodies, against closed forms.
+// Contacts and friction of single bodies, compared with closed forms.
 #include "articulated_testing.hpp"
 
 namespace muro::articulated::testing {
 namespace {
 
-/// Hz: with it, contacts of a robot of `mass` (kg) have `stiffness` (N/m).
+/// Returns the frequency (Hz) at which contacts of a robot of `mass` (kg) have `stiffness` (N/m).
 double frequency_of(double stiffness, double mass) { return std::sqrt(stiffness / mass) / (2 * M_PI); }
 
 TEST(ABlockOnASlope, IsHeldByFrictionAndDoesNotCreep) {
@@ -41,7 +41,8 @@ TEST(ABlockOnASlope, SlidesWithTheAccelerationOfCoulomb) {
   }
 }
 
-/// The foot bears much less than contacts of its robot are made for, and comes out slowly where it has landed.
+/// The foot bears much less than the contacts of its robot are made for, and its overlap from the landing decreases
+/// slowly.
 TEST(ALightFoot, ThatADriveHasPutDownStaysDown) {
   World w;
   w.add_ground();
@@ -67,9 +68,9 @@ TEST(ALightFoot, ThatADriveHasPutDownStaysDown) {
   }
 }
 
-/// Three links of one body: the base, and two feet that fixed joints hold, one behind the other.
+/// Three links of one body: the base, and two feet on fixed joints, at its front and its back.
 TEST(LinksOfOneBody, AreToldTheWrenchOfTheirOwnContacts) {
-  for (const int robots : {1, 8}) {  // alone, and as a pack
+  for (const int robots : {1, 8}) {  // one robot alone, and a pack
     World w;
     w.add_ground();
     const RobotTree tree = test::tree_of([](RobotBuilder& b) {
@@ -102,7 +103,7 @@ TEST(LinksOfOneBody, AreToldTheWrenchOfTheirOwnContacts) {
   }
 }
 
-/// In a pack, of which one robot is in the air.
+/// The robots are a pack, and one of them is in the air.
 TEST(ABodyOffItsMiddle, IsToldTheWrenchThatHoldsIt) {
   World w;
   w.add_ground();
@@ -209,7 +210,7 @@ TEST(ABall, RollsDownASlope) {
   EXPECT_NEAR(w.twist(r).angular.norm() * 0.1, w.twist(r).linear.norm(), 0.01 * expected) << "without slip";
 }
 
-/// A robot that no force moves, with a block of motion.articulated.
+/// A robot that no force moves, and a block that motion.articulated moves.
 struct Moved : World {
   const RobotView* mover;
   const RobotView* block;

@@ -16,7 +16,7 @@ class SmallShapes {
   test::Randoms& random_;
 };
 
-/// One to five bodies with shapes; joints swing and slide within their limits, damped or not.
+/// Returns a tree of one to five bodies with shapes. Joints swing and slide within their limits, damped or not.
 RobotTree random_tree(test::Randoms& random) {
   const int children = random.below(5);
   const double friction = random.uniform(0, 1);
@@ -55,13 +55,13 @@ RobotTree random_tree(test::Randoms& random) {
 }
 
 struct Gain {
-  double worst = 0;  ///< of the energy, relative to that at the start
+  double worst = 0;  ///< largest gain of energy, relative to the energy at the start
   std::string robot;
-  int above = 0;  ///< robots that gained more than 0.1 %
+  int above = 0;  ///< number of robots that gained more than 0.1 %
 };
 
-/// Drops so many robots, each on a place of its own, and follows them for `seconds`. Energies are compared while they
-/// fly: before and after contacts.
+/// Drops `count` robots, each at a place of its own, and follows them for `seconds`. Compares energies before and after
+/// contacts, while the robots fly.
 Gain gain_of(unsigned seed, int count, double seconds) {
   World w;
   test::Randoms random(seed);
@@ -95,7 +95,7 @@ Gain gain_of(unsigned seed, int count, double seconds) {
     w.run_for(0.01);
     w.refresh();
     for (std::size_t i = 0; i < robots.size(); ++i) {
-      if (touches(*robots[i])) continue;  // springs of contacts hold some of it
+      if (touches(*robots[i])) continue;  // springs of contacts hold some of the energy
       const double energy = energy_of(*robots[i]);
       gains[i] = std::max(gains[i], (energy - lowest[i]) / starts[i]);
       lowest[i] = std::min(lowest[i], energy);
@@ -116,7 +116,7 @@ TEST(PassiveDrops, GainNoEnergy) {
   EXPECT_LE(gain.worst, 1e-3) << gain.robot << "; " << gain.above << " of 300";
 }
 
-/// Ten thousand in all: five hundred by each seed.
+/// Each seed drops five hundred robots, together ten thousand.
 class ManyPassiveDrops : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(ManyPassiveDrops, GainNoEnergy) {

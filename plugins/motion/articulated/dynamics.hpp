@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The passes of the articulated-body algorithm (Featherstone, table 7.1) over any scalar of muro/simd, with joints that
-// are driven by efforts and joints that are held (hybrid dynamics, section 9.2). Velocities and accelerations are
-// spatial, in the frame of each body, at its origin; accelerations are those beyond gravity.
+// The passes of the articulated-body algorithm (Featherstone, table 7.1) over any scalar of muro/simd. Joints are
+// driven by efforts, or held (hybrid dynamics, section 9.2). Velocities and accelerations are spatial, in the frame of
+// each body, at its origin. Accelerations are those beyond gravity.
 #pragma once
 
 #include "body_step.hpp"
@@ -10,7 +10,7 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-/// Velocity of a body from that of its parent. How its joint turns it is known.
+/// Finds the velocity of a body from that of its parent. The rotation by its joint is known.
 template <int K, bool plain, class S>
 MURO_INLINE void find_velocity(const Body& b, BodyStep<S>* bodies, int i) {
   BodyStep<S>& own = bodies[i];
@@ -24,7 +24,7 @@ MURO_INLINE void find_velocity(const Body& b, BodyStep<S>* bodies, int i) {
   own.w = w, own.v = v;
 }
 
-/// Pose of a body in the world from that of its parent.
+/// Finds the pose of a body in the world from that of its parent.
 template <int K, bool plain, class S>
 MURO_INLINE void find_pose(const Body& b, BodyStep<S>* bodies, int i) {
   BodyStep<S>& own = bodies[i];
@@ -46,7 +46,7 @@ template <int K, bool plain, class S>
   find_pose<K, plain>(b, bodies, i);
 }
 
-/// The inertia of a body with what waits for it in `slot`, which may be null, and the wrench that it needs at its
+/// Returns the inertia of a body with what waits for it in `slot` (may be null), and the wrench that it needs at its
 /// velocity.
 template <class S>
 MURO_INLINE Inertia<S> gathered(const Masses<S>& masses, int body, const V3<S>& w, const V3<S>& v,
@@ -74,14 +74,14 @@ MURO_INLINE Inertia<S> gathered(const Masses<S>& masses, int body, const V3<S>& 
   o.n += s.n, o.f += s.f;
   return o;
 }
-/// Of a body alone.
+/// Returns the inertia and wrench of a body alone.
 template <class S>
 MURO_INLINE Inertia<S> own_inertia(const Masses<S>& masses, int body, const V3<S>& w, const V3<S>& v) {
   return gathered<S>(masses, body, w, v, nullptr);
 }
 
-/// The two components across axis K of the acceleration by the velocity of a joint, v x S qd; of what turns also those
-/// of the angular one.
+/// The two components across axis K of the acceleration v x S qd, which the velocity of a joint causes. For a hinge,
+/// also those of the angular acceleration.
 template <int K, bool plain, class S>
 struct VelocityTerms {
   S ci, cj, di, dj;  ///< angular and linear, along the axes that follow K
@@ -98,7 +98,7 @@ struct VelocityTerms {
   }
 };
 
-/// Adds what a body hands on to the parent's slot.
+/// Adds the inertia that a body hands on to the parent's slot.
 template <class S>
 MURO_INLINE void hand_on(const Body& b, const Inertia<S>& m, Inertia<S>* slots) {
   Inertia<S>& to = slots[b.parent_slot];
@@ -108,8 +108,8 @@ MURO_INLINE void hand_on(const Body& b, const Inertia<S>& m, Inertia<S>* slots) 
     to += m;
 }
 
-/// Adds a body's inertia as its joint lets the parent feel it to the parent's slot. `external`: of contacts and
-/// wrenches on the body, or null; `kept`: out, the same, or null.
+/// Adds the inertia of a body to the parent's slot, as the parent feels it through the joint. `external`: terms of
+/// contacts and wrenches on the body, or null; `kept`: out, the inertia that is handed on, or null.
 template <int K, bool plain, class S>
 [[gnu::noinline]] void fold(const Body& b, BodyStep<S>* bodies, int i, const Masses<S>& masses, Inertia<S>* slots,
                             const Inertia<S>* external, Inertia<S>* kept) {
@@ -130,14 +130,14 @@ template <int K, bool plain, class S>
   own.D = at<K>(slides ? Uf : Un) + own.terms.inertia;
   own.bias = at<K>(slides ? m.f : m.n) - own.terms.effort;
   const S inverse = own.give = own.terms.is_free / own.D, go = own.terms.rate - inverse * own.bias;
-  // less what the joint gives way
+  // minus the part that the joint gives way
   const V3<S> n = Un * inverse, f = Uf * inverse;
   m.A.xx -= n.x * Un.x, m.A.yy -= n.y * Un.y, m.A.zz -= n.z * Un.z;
   m.A.yz -= n.y * Un.z, m.A.zx -= n.z * Un.x, m.A.xy -= n.x * Un.y;
   m.C.xx -= f.x * Uf.x, m.C.yy -= f.y * Uf.y, m.C.zz -= f.z * Uf.z;
   m.C.yz -= f.y * Uf.z, m.C.zx -= f.z * Uf.x, m.C.xy -= f.x * Uf.y;
   m.B.x -= Uf * n.x, m.B.y -= Uf * n.y, m.B.z -= Uf * n.z;
-  // the wrench: of the velocity, and of the joint's acceleration
+  // the wrench by the velocity and by the acceleration of the joint
   m.n += Un * go, m.f += Uf * go;
   const VelocityTerms<K, plain, S> t(b, own);
   at<K>(m.n) += entry<K, I>(m.B) * t.di + entry<K, J>(m.B) * t.dj;
@@ -161,14 +161,14 @@ template <int K, bool plain, class S>
   hand_on(b, m, slots);
 }
 
-/// kg m^2 or kg: what moves with a joint, by itself, when nothing else than its effort moves it. The body is folded.
+/// Returns the inertia that moves with a joint (kg m^2 or kg) when only its effort moves it. The body is folded.
 template <class S>
 MURO_INLINE S moved_inertia(const Body& b, const BodyStep<S>& own) {
   const V3<S>& u = b.slides ? own.Uf : own.Un;
   return b.axis == 0 ? u.x : b.axis == 1 ? u.y : u.z;
 }
 
-/// The accelerations of a body and its joint from its parent's.
+/// Finds the accelerations of a body and its joint from those of its parent.
 template <int K, bool plain, class S>
 MURO_INLINE void accelerate(const Body& b, BodyStep<S>* bodies, int i) {
   BodyStep<S>& own = bodies[i];
@@ -198,24 +198,24 @@ MURO_INLINE void with_joint(const Body& b, const F& f) {
     plain ? f.template operator()<2, true>() : f.template operator()<2, false>();
 }
 
-/// Poses and velocities of all bodies from those of the base and of the joints.
+/// Finds poses and velocities of all bodies from those of the base and of the joints.
 template <class S>
 void place_all(const Structure& s, BodyStep<S>* bodies) {
   for (int i = 1; i < s.count; ++i)
     with_joint(s.bodies[i], [&]<int K, bool plain>() { place<K, plain>(s.bodies[i], bodies, i); });
 }
 
-/// Velocities alone: bodies are where they were placed, and the base and joints move otherwise.
+/// Finds the velocities alone: bodies are where they were placed, and the base and joints have other velocities.
 template <class S>
 void find_velocities(const Structure& s, BodyStep<S>* bodies) {
   for (int i = 1; i < s.count; ++i)
     with_joint(s.bodies[i], [&]<int K, bool plain>() { find_velocity<K, plain>(s.bodies[i], bodies, i); });
 }
 
-/// Accelerations of all bodies and joints. `external`: one for each body, or null; `base`: out, the inertia of a free
-/// base with all that hangs on it; `fall`: m/s^2, the acceleration of a fixed base beyond gravity, in its frame.
-/// `kept`: one for each body, or null; `folding`: what has to be folded again after it has been, or null.
-/// `coupling` is told when all that hangs on a body is known, and when its acceleration is.
+/// Finds the accelerations of all bodies and joints. `external`: one for each body, or null; `base`: out, the inertia
+/// of a free base with all that hangs on it; `fall`: m/s^2, the acceleration of a fixed base beyond gravity, in its
+/// frame; `kept`: one for each body, or null; `folding`: the bodies to fold again after a first time, or null.
+/// `coupling` is called when all that hangs on a body is known, and when the acceleration of the body is.
 template <class S, class Coupling>
 void accelerate_all(const Structure& s, const Masses<S>& masses, BodyStep<S>* bodies, Inertia<S>* slots,
                     const Inertia<S>* const* external, Inertia<S>& base, const V3<S>& fall, Coupling&& coupling,

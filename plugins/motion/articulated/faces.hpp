@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where friction acts in faces that touch: see pressure_cells.hpp.
+// Places where friction acts in faces that touch: see pressure_cells.hpp.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ inline namespace MURO_ISA {
 
 using contact_geometry::same_direction;
 
-/// The cell of each contact of one robot, of which some are in faces.
+/// Finds the cell of each contact of one robot, some of which are in faces.
 inline void find_faces(KernelContact* contacts, int count) {
   for (int begin = 0, end = 0; begin < count; begin = end) {
     KernelContact* const first = contacts + begin;
@@ -39,13 +39,13 @@ inline void find_faces(KernelContact* contacts, int count) {
   }
 }
 
-/// A face of each robot of a pack, whose points are as many and all in one plane.
+/// A face of each robot of a pack. The faces have the same number of points, and those of a face lie in one plane.
 template <class S>
 class Face {
  public:
   static constexpr int most_points = 8;
 
-  /// `first`: of the face of each robot. Returns false where it is no such face.
+  /// Finds the shifts. `first`: first contact of the face of each robot. Returns false if this is no such face.
   bool find(KernelContact* const (&first)[lane::count_of<S>]) {
     const int count = first[0]->face;
     if (count > most_points) return false;
@@ -73,7 +73,7 @@ class Face {
     next_ = 0, count_ = count;
     return true;
   }
-  /// m, world: of the next of its points, from there to where its friction acts; null when there is none.
+  /// Returns the shift (m, world) from the next point to where its friction acts; null when there is none.
   const V3<S>* next() { return next_ < count_ ? &shifts_[next_++] : nullptr; }
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The flight of a robot that touches nothing, or is one body that contacts push: gravity, wrenches from outside and its
-// momentum say how its base moves. So momenta are kept to rounding, whatever its joints do, and a rigid body turns by
-// the midpoint rule on its angular momentum (Hairer, Lubich, Wanner, Geometric Numerical Integration, section VII.5),
-// as at motion.simplified.
+// Flight of a robot that touches nothing, or is one body that contacts push. Gravity, wrenches from outside and its
+// momentum determine the motion of its base. So momenta are kept to rounding, whatever its joints do. A rigid body
+// turns by the midpoint rule on its angular momentum (Hairer, Lubich, Wanner, Geometric Numerical Integration, section
+// VII.5), as in motion.simplified.
 #pragma once
 
 #include "plugins/common/lanes/rotation.hpp"
@@ -11,17 +11,17 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-/// Of all bodies; world axes.
+/// Momentum of all bodies; world axes.
 template <class S>
 struct Momentum {
   V3<S> linear;   ///< N s
   V3<S> angular;  ///< N m s, about the centre of mass
-  V3<S> centre;   ///< m, of mass
+  V3<S> centre;   ///< m: centre of mass
   S mass;         ///< kg
   Sym<S> tensor;  ///< kg m^2, about the centre
 };
 
-/// Of bodies that are placed.
+/// Returns the momentum of bodies that are placed.
 template <class S>
 [[gnu::noinline]] Momentum<S> momentum_of(const Structure& s, const Masses<S>& masses, const BodyStep<S>* bodies) {
   const V3<S> about = bodies[0].origin;
@@ -47,7 +47,7 @@ template <class S>
   return {linear, angular - cross(c, linear), about + c, all.mass, t};
 }
 
-/// The twist at the origin of the base, `at` (m), of a robot which without it has the momentum `resting`.
+/// Returns the twist of the base at `at` (m), of a robot that has the momentum `resting` while its base rests.
 template <class S>
 MURO_INLINE lane::TwistOf<S> base_twist(const Momentum<S>& resting, const V3<S>& linear, const V3<S>& angular,
                                         const V3<S>& at) {
@@ -55,19 +55,19 @@ MURO_INLINE lane::TwistOf<S> base_twist(const Momentum<S>& resting, const V3<S>&
   return {(linear - resting.linear) * (S(1) / resting.mass) + cross(spin, at - resting.centre), spin};
 }
 
-/// A base in flight over a step, beside all else that the step does.
+/// A base in flight over a step, beside the other parts of the step.
 template <class S>
 class Flight {
  public:
-  /// Bodies are placed as the step begins.
+  /// Finds the momentum at the start. Bodies are placed as the step begins.
   Flight(const Structure& s, const Masses<S>& masses, Work<S>& work)
       : s_(s), masses_(masses), work_(work), start_(momentum_of(s, masses, work.bodies)) {}
 
   const Momentum<S>& start() const { return start_; }
 
-  /// When joints have moved. `untouched`: robots whose bodies lie where the middle of the step finds them, with the
-  /// position of the start; those of the others have the start. `force`, `torque`: from outside, at the origin of the
-  /// base, of contacts as well where it is the only body. Changes bodies.
+  /// Moves the base after the joints have moved. `untouched`: robots whose bodies are placed at the middle of the step,
+  /// with the position of the start; those of the others are placed at the start. `force`, `torque`: from outside, at
+  /// the origin of the base; with those of contacts if the base is the only body. Changes bodies.
   void carry(lane::PoseOf<S>& pose, lane::TwistOf<S>& twist, MaskOf<S> untouched, bool all_are, const V3<S>& gravity,
              const V3<S>& force, const V3<S>& torque, double dt) {
     const S h(dt), half(0.5 * dt);
@@ -93,7 +93,7 @@ class Flight {
   }
 
  private:
-  /// With a base that does not move.
+  /// Returns the momentum while the base does not move.
   Momentum<S> at_rest(const V3<S>& position, const lane::Q4<S>& orientation) {
     BodyStep<S>& base = work_.bodies[0];
     base.axes = orientation.matrix();

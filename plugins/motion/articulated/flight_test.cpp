@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What flies keeps its momenta, whatever its joints do; a pendulum has the period of its closed form.
+// Flying robots keep their momenta, whatever their joints do; a pendulum has the period of its closed form.
 #include <cmath>
 
 #include "articulated_testing.hpp"
@@ -49,7 +49,7 @@ TEST(ATreeInFlight, KeepsItsMomentaWithPassiveJoints) {
   }
 }
 
-/// Complete elliptic integral of the first kind, by the arithmetic-geometric mean.
+/// Returns the complete elliptic integral of the first kind, by the arithmetic-geometric mean.
 double elliptic(double modulus) {
   double a = 1, b = std::sqrt(1 - modulus * modulus);
   while (std::abs(a - b) > 1e-15) {
@@ -59,7 +59,8 @@ double elliptic(double modulus) {
   return M_PI / (2 * a);
 }
 
-/// s: the mean of the first periods of a rod of 1 m that begins at `amplitude` (rad), by its passages downwards.
+/// Returns the mean of the first periods (s) of a rod of 1 m that starts at `amplitude` (rad), from its passages
+/// downwards.
 double period(double amplitude, double rate) {
   World w;
   w.add("r", test::tree_of([](RobotBuilder& b) {
@@ -83,7 +84,7 @@ double period(double amplitude, double rate) {
 }
 
 TEST(APendulum, HasThePeriodOfTheEllipticIntegral) {
-  const double length = 2.0 / 3;  // m: of the mathematical pendulum, l 2/3 of a rod
+  const double length = 2.0 / 3;  // m: length of the mathematical pendulum, 2/3 of a rod
   for (const double degrees : {10.0, 90.0, 150.0}) {
     const double amplitude = degrees * M_PI / 180;
     const double expected = 4 * std::sqrt(length / g) * elliptic(std::sin(0.5 * amplitude));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a further trial of a step folds: bodies of which something has changed, and those that they hang on. What hangs
-// on the base or on a fork beside them is taken as it was.
+// Bodies that a further trial of a step folds: those that have changed, and those that they hang on. The rest that
+// hangs on the base or on a fork is taken as it was.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@ namespace muro::articulated {
 
 enum class Folding : std::uint8_t {
   whole,  ///< the body is folded
-  kept,   ///< its parent gets what it got before
+  kept,   ///< its parent gets the same inertia as before
   none,   ///< its parent is not folded either
 };
 
-/// `changed`: one a body, whether its joint or what acts on it has. `to`: out, one a body.
+/// Plans a trial. `changed`: per body, whether its joint or what acts on it has changed; `to`: out, one per body.
 inline void plan_folding(const Structure& s, const bool* changed, Folding* to) {
   for (int k = 0; k < s.count; ++k) to[k] = changed[k] ? Folding::whole : Folding::none;
   for (int k = s.count; k-- > 1;)

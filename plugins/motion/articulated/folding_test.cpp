@@ -8,7 +8,7 @@
 namespace muro::articulated {
 namespace {
 
-/// A base with two arms of two bodies, 1 2 and 3 4, and a head 5.
+/// Returns a base with two arms of two bodies, 1 2 and 3 4, and a head 5.
 std::vector<Body> torso() {
   std::vector<Body> bodies(6);
   const int parents[] = {-1, 0, 1, 0, 3, 0};

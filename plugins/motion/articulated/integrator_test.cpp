@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Energy and momentum of what moves without friction, by both integrators.
+// Energy and momentum of bodies that move without friction, by both integrators.
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/mass_properties.hpp"
@@ -13,7 +13,7 @@ constexpr double upper_length = 0.3;
 const Inertia upper{.mass = 0.7, .com = {0, 0, -0.17}, .ixx = 0.004, .iyy = 0.004, .izz = 1e-4};
 const Inertia lower{.mass = 0.4, .com = {0, 0, -0.12}, .ixx = 0.002, .iyy = 0.002, .izz = 1e-4};
 
-/// Two rods that swing about y, one on the other.
+/// Returns two rods that swing about y, one on the other.
 RobotTree double_pendulum(bool is_geared) {
   return test::tree_of([&](RobotBuilder& b) {
     b.base("frame");
@@ -42,7 +42,7 @@ struct DoublePendulum : test::Scene {
         {{"joints", std::string("passive")}, {"base", std::string("fixed")}, {"integrator", integrator}});
     build();
   }
-  /// Of Lagrange's equations; angles from the vertical.
+  /// Returns the energy by Lagrange's equations; angles are from the vertical.
   double energy() {
     const double a = world().value("r/shoulder", keys::joint_position),
                  b = a + world().value("r/elbow", keys::joint_position);
@@ -54,7 +54,7 @@ struct DoublePendulum : test::Scene {
     return 0.5 * (first * u * u + second * w * w) + lower.mass * l * c2 * std::cos(a - b) * u * w -
            g * ((upper.mass * c1 + lower.mass * l) * std::cos(a) + lower.mass * c2 * std::cos(b));
   }
-  /// The largest change of the energy within 10 s, relative to what it swings with.
+  /// Returns the largest change of the energy within 10 s, relative to the energy of its swing.
   double drift() {
     const double swing = (upper.mass * 0.17 + lower.mass * (upper_length + 0.12)) * g, start = energy();
     double worst = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What acts along a joint beside the bodies behind it: its drive, damping, Coulomb friction and stops. All of it is a
-// function of the velocity at the end of the step that never rises, with steps in it: of friction at rest, of a drive
-// that holds a velocity within its effort, of stops. A step takes a straight piece of it, or holds the joint where it
-// is vertical, and looks afterwards whether that was the piece that the joint has come to.
+// Efforts along a joint beside the bodies behind it: its drive, damping, Coulomb friction and stops. Their sum is a
+// function of the velocity at the end of the step that never rises. It has jumps: friction at rest, a drive that holds
+// a velocity within its effort, stops. A step takes a straight piece of it, or holds the joint at a jump, and checks
+// afterwards whether the joint has reached that piece.
 #pragma once
 
 #include "dynamics.hpp"
@@ -12,37 +12,37 @@ inline namespace MURO_ISA {
 
 using lane::abs, lane::MaskOf, lane::max, lane::min, lane::select;
 
-/// Of a joint in one step.
+/// Law of a joint in one step.
 template <class S>
 struct JointLaw {
-  S pull, drag;         ///< of the drive: its effort is pull - drag v', N m or N, N m s/rad or N s/m
-  S velocity;           ///< of a drive that holds a velocity: rad/s or m/s
-  S effort;             ///< N m or N: of the drive, at most
+  S pull, drag;         ///< N m or N, N m s/rad or N s/m: of the drive; its effort is pull - drag v'
+  S velocity;           ///< rad/s or m/s: velocity that a drive holds
+  S effort;             ///< N m or N: largest effort of the drive
   S damping;            ///< N m s/rad or N s/m
   S friction;           ///< N m or N
-  S lowest, highest;    ///< rad/s or m/s: at which the joint would meet a stop at the end of the step
-  double speed;         ///< rad/s or m/s: the drive is no faster
-  bool holds_velocity;  ///< the drive does
+  S lowest, highest;    ///< rad/s or m/s: velocities at which the joint would meet a stop at the end of the step
+  double speed;         ///< rad/s or m/s: largest speed of the drive
+  bool holds_velocity;  ///< the drive holds a velocity
 };
 
-/// What of the law of a joint differs between robots of one structure, and where: what its Joint says is not used of
-/// the rest.
+/// Numbers of the law of a joint that differ between robots of one structure. A number that the Joint does not need is
+/// not set.
 template <class S>
 struct OwnLaw {
-  S pull;             ///< also: the velocity of a drive that holds one
-  S lowest, highest;  ///< of joints with stops
-  S drag;             ///< of drives whose damping follows from the inertia
+  S pull;             ///< pull, or the velocity of a drive that holds one
+  S lowest, highest;  ///< for joints with stops
+  S drag;             ///< for drives whose damping follows from the inertia
   S friction_loss, armature_loss;
-  S bound;  ///< -1, 1: of a drive that holds a velocity, and did what it can do at most in the last step; else 0
+  S bound;  ///< -1, 1: a drive that holds a velocity gave its largest effort in the last step; else 0
 };
 
-/// The piece of a law that a step takes.
+/// Piece of a law that a step takes.
 template <class S>
 struct JointPiece {
   S is_free;     ///< 1; 0: held at `velocity`
-  S pull, drag;  ///< effort along the joint pull - drag v'
+  S pull, drag;  ///< the effort along the joint is pull - drag v'
   S velocity;    ///< rad/s or m/s: at the end of the step
-  S effort;      ///< N m or N: of the drive
+  S effort;      ///< N m or N: effort of the drive
 
   MURO_INLINE friend MaskOf<S> operator==(const JointPiece& a, const JointPiece& b) {
     const auto same_hold = (a.is_free == S(0)) & (b.is_free == S(0)) & (a.velocity == b.velocity);
@@ -59,15 +59,16 @@ MURO_INLINE S sign_of(S x) {
   return select(x < S(0), S(-1), S(1));
 }
 
-/// N m or N: of a drive that reaches the velocity that it holds in the step, which takes `needed` beside friction.
+/// Returns the effort (N m or N) by which a drive reaches its held velocity in a step; this takes `needed` beside
+/// friction.
 template <class S>
 MURO_INLINE S tracking_effort_of(const JointLaw<S>& law, S needed) {
   const S zero(0), at_rest = sign_of(needed) * max(abs(needed) - law.friction, zero);
   return select(law.velocity == zero, at_rest, needed + sign_of(law.velocity) * law.friction);
 }
 
-/// Where the law meets what a joint does that has the velocity `free` (rad/s or m/s) without it and that an impulse
-/// changes by 1 / `inertia` (kg m^2 or kg), in a step of `dt` (s).
+/// Finds the piece on which a joint ends in a step of `dt` (s). Without the law the joint has the velocity `free`
+/// (rad/s or m/s); an impulse changes it by 1 / `inertia` (kg m^2 or kg).
 template <class S>
 MURO_INLINE JointPiece<S> meet(const JointLaw<S>& law, S inertia, S free, double dt) {
   const S zero(0), one(1), per_second = inertia * S(1 / dt), push = per_second * free;
@@ -110,8 +111,8 @@ MURO_INLINE JointPiece<S> meet(const JointLaw<S>& law, S inertia, S free, double
   return {select(held, zero, one), pull - friction, drag + law.damping, v, select(stops, at_stop, effort)};
 }
 
-/// The piece on which a joint with velocity `v` most probably ends: where it is, and at rest where it hardly moves and
-/// friction may hold it. `bound`: see OwnLaw; of a drive that holds a velocity.
+/// Returns the piece on which a joint with velocity `v` most probably ends: its present one, or rest if it hardly moves
+/// and friction may hold it. `bound`: see OwnLaw; for a drive that holds a velocity.
 template <class S>
 MURO_INLINE JointPiece<S> guess(const JointLaw<S>& law, S v, S bound) {
   const S zero(0), one(1), hardly(1e-4);  // rad/s or m/s
@@ -130,8 +131,8 @@ MURO_INLINE JointPiece<S> guess(const JointLaw<S>& law, S v, S bound) {
   return {select(sticks | stops, zero, one), pull - friction, drag + law.damping, to, zero};
 }
 
-/// Where joints push each other from piece to piece: drive and friction as dampers, which do at the velocity `v` what
-/// the law has there, and cannot do more against what moves the joint than it.
+/// Returns a piece for joints that push each other from piece to piece. Drive and friction are dampers, which do at the
+/// velocity `v` what the law does there. Against a motion they can do no more than the law.
 template <class S>
 MURO_INLINE JointPiece<S> damped(const JointLaw<S>& law, const JointPiece<S>& found, S v) {
   const S zero(0), one(1), tiny(1e-9);
@@ -166,14 +167,14 @@ MURO_INLINE MaskOf<S> goes_on(const JointLaw<S>& law, const JointPiece<S>& tried
          (v > law.lowest);
 }
 
-/// Whether a drive that was tried to reach the velocity that it holds does so with `effort`, as most do.
+/// Whether a drive that was tried at the velocity that it holds needs an `effort` within its limit, as most do.
 template <class S>
 MURO_INLINE MaskOf<S> tracks(const JointLaw<S>& law, const JointPiece<S>& tried, S effort) {
   return (tried.is_free == S(0)) & (tried.velocity == law.velocity) & (abs(effort) <= law.effort);
 }
 
-/// Whether friction that was tried to hold a joint at rest holds it, against `needed` (N m or N), the effort along the
-/// joint that this takes.
+/// Whether friction that was tried to hold a joint at rest does so. `needed` (N m or N): effort along the joint that
+/// this takes.
 template <class S>
 MURO_INLINE MaskOf<S> stays_at_rest(const JointLaw<S>& law, const JointPiece<S>& tried, S needed) {
   const S zero(0);
@@ -182,7 +183,7 @@ MURO_INLINE MaskOf<S> stays_at_rest(const JointLaw<S>& law, const JointPiece<S>&
          (law.highest > zero) & (abs(needed - drive) <= law.friction);
 }
 
-/// As the algorithm takes it. `armature`: kg m^2 or kg; `v`: at the begin of the step.
+/// Returns the terms of a piece for the algorithm. `armature`: kg m^2 or kg; `v`: at the begin of the step.
 template <class S>
 MURO_INLINE JointTerms<S> terms_of(const JointPiece<S>& piece, S armature, S v, double dt) {
   const S zero(0), h(dt);

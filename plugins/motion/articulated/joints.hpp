@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The joints of a pack of robots within a step.
+// Joints of a pack of robots within a step.
 #pragma once
 
 #include <algorithm>
@@ -36,8 +36,8 @@ class Joints {
     });
   }
 
-  /// Brings the joints of the robots `which` to the middle of the step, with the velocities that they have there if
-  /// they go on to change as in the last step. What is driven has that of the begin: drives change velocities at once.
+  /// Brings the joints of the robots `which` to the middle of the step. Their velocities change as in the last step;
+  /// those of driven joints stay as at the begin, since drives change velocities at once.
   void go_to_middle(MaskOf<S> which) {
     const S half(0.5 * batch_.dt);
     each_row([&]<int n>(int k, std::integral_constant<int, n>) {
@@ -57,7 +57,7 @@ class Joints {
     if (s_.has_mimics) follow_leaders(s_, work_, which);
   }
 
-  /// What acts along each joint, and the terms of the piece of it to try first. Bodies have been placed.
+  /// Finds the law of each joint, and the terms of the piece of it to try first. Bodies have been placed.
   void find_laws(const Masses<S>& masses) {
     if (s_.needs_inertia) find_moved_inertias(s_, masses, work_.bodies, work_.composites);
     for (int k = 1; k < s_.count; ++k) {
@@ -68,20 +68,20 @@ class Joints {
     }
   }
 
-  /// kg m^2 or kg.
+  /// Returns the armature of a joint (kg m^2 or kg).
   MURO_INLINE S armature_of(int k) const {
     const Joint& j = s_.joints[k];
     return j.has_armature_loss ? S(j.armature) + work_.laws[k].armature_loss : S(j.armature);
   }
 
-  /// Of the pieces to be tried next.
+  /// Sets the terms of the pieces to try next.
   void set_terms() {
     for (int k = 1; k < s_.count; ++k)
       if (work_.changed[k]) set_terms_of(k);
   }
 
-  /// Whether some joint of the robots `which` has come to another piece of its law than the one that was tried, which
-  /// is then the next to be.
+  /// Whether some joint of the robots `which` has reached another piece of its law than the one that was tried. That
+  /// piece is tried next.
   bool look_again(unsigned which) {
     constexpr unsigned all = lane::all_lanes<S>;
     unsigned changed = 0;
@@ -111,7 +111,7 @@ class Joints {
       if (lane::bits(stays) == all) continue;
       const JointPiece<S> found = meet(law, inertia, v - S(batch_.dt) * load / inertia, batch_.dt);
       const auto same = stays | (tried == found);
-      // the second change of mind is the last
+      // from its second change on, a joint is tried as a damper
       S& changes = work_.changes[k];
       const auto wavers = (!same) & (changes >= S(1));
       changes = select(same, changes, changes + S(1));
@@ -131,8 +131,8 @@ class Joints {
     return (changed & which) != 0;
   }
 
-  /// Semi-implicit Euler; with the mean of both velocities what is carried in the robots `which`. Keeps how it moves
-  /// within the step (JointStage), and returns in which of `which` no joint has been stopped at once.
+  /// Moves joints by semi-implicit Euler; carried joints of the robots `which` move with the mean of both velocities.
+  /// Keeps the motion within the step (JointStage). Returns those of `which` in which no joint was stopped at once.
   MaskOf<S> move(MaskOf<S> which) {
     const S h(batch_.dt), hardly(1e-4);  // rad/s or m/s
     const bool some = lane::bits(which) != 0;
@@ -154,7 +154,7 @@ class Joints {
         work_.stages[k].velocities = factor_of<S>(s_, k) * work_.stages[leader].velocities;
     return is_smooth;
   }
-  /// When joints have moved.
+  /// Ends the motion of joints: mimic joints follow.
   void finish() {
     if (s_.has_mimics) follow_leaders(s_, work_, S(0) == S(0));
   }
@@ -177,8 +177,8 @@ class Joints {
     for (int k = 1; k < s_.count; ++k) all += abs(work_.bodies[k].q) + abs(work_.bodies[k].qd);
     return all;
   }
-  /// For the next step: what joints are carried by, in the robots `smooth` (nothing in the others), and which drives of
-  /// velocity are at their limit. [after move]
+  /// Keeps for the next step the accelerations of carried joints in the robots `smooth` (zeros in the others), and
+  /// which drives of velocity are at their limit. [after move]
   void keep_accelerations(MaskOf<S> smooth, unsigned which) const {
     each_row([&]<int n>(int k, std::integral_constant<int, n>) {
       if (!keeps_something(k, n)) return;
@@ -194,9 +194,9 @@ class Joints {
   }
 
  private:
-  static constexpr int of_base = 6;  ///< numbers of accelerations before those of joints
+  static constexpr int of_base = 6;  ///< number of accelerations before those of joints
 
-  /// Calls f(k, n) for joints k to k + n - 1, whose numbers lie side by side: all, piece by piece.
+  /// Calls f(k, n) for joints k to k + n - 1, whose numbers lie side by side, until all are visited.
   template <class F>
   MURO_INLINE void each_row(const F& f) const {
     int k = 1;
@@ -207,13 +207,13 @@ class Joints {
   struct State {
     S position, velocity;
   };
-  /// In the direction of the model.
+  /// State of a joint at the start, in the direction of the model.
   MURO_INLINE State start_of(int k) const {
     const S sign(s_.bodies[k].sign);
     return {sign * work_.stages[k].q, sign * work_.stages[k].qd};
   }
 
-  /// Whether a joint goes where its velocity and an effort that knows nothing of its position carry it.
+  /// Whether a joint is carried: its velocity moves it, and an effort that does not depend on its position.
   MURO_INLINE static bool is_carried(const Joint& j) {
     return j.leader < 0 && (j.drive == Drive::effort || j.drive == Drive::passive);
   }
@@ -225,18 +225,18 @@ class Joints {
     return std::any_of(s_.joints + k, s_.joints + k + n,
                        [](const Joint& j) { return is_carried(j) || holds_velocity(j); });
   }
-  /// -1, 1: of a drive that does what it can do at most, `most`, and lets the joint go; else 0.
+  /// Returns -1 or 1 for a drive that gives its largest effort, `most`, and lets the joint go; else 0.
   MURO_INLINE static S bound_of(const JointPiece<S>& piece, S most) {
     return select((piece.is_free > S(0)) & (abs(piece.effort) >= most), sign_of(piece.effort), S(0));
   }
 
-  /// Whether something can take its velocity at once.
+  /// Whether something can stop or hold the joint at once.
   MURO_INLINE static bool may_stop(const Joint& j) {
     return j.lower > -Joint::infinite || j.upper < Joint::infinite || j.friction > 0 || j.has_friction_loss ||
            (j.drive == Drive::position && j.speed < Joint::infinite);
   }
 
-  /// A joint that has moved by semi-implicit Euler.
+  /// Corrects a joint that has moved by semi-implicit Euler.
   MURO_INLINE void carry(int k, MaskOf<S> which) {
     BodyStep<S>& b = work_.bodies[k];
     JointStage<S>& j = work_.stages[k];
@@ -246,7 +246,7 @@ class Joints {
     j.velocities = select(mean_moves, mean, b.qd);
     j.accelerations = select(mean_moves, trend<S>(b.qdd, j.accelerations), S(0));
   }
-  /// rad or m: `q`, but no farther beyond a stop than `end`, which the law of the joint has brought there.
+  /// Returns `q` (rad or m), but no farther beyond a stop than `end`, to which the law of the joint has brought it.
   MURO_INLINE S within_stops(int k, S q, S end) const {
     const Joint& j = s_.joints[k];
     const bool turned = s_.bodies[k].sign < 0;
@@ -256,14 +256,14 @@ class Joints {
     return q;
   }
 
-  /// Parts of two pieces.
+  /// Returns `a` in the robots `m` and else `b`; the effort is that of `b`.
   MURO_INLINE static JointPiece<S> chosen(MaskOf<S> m, const JointPiece<S>& a, const JointPiece<S>& b) {
     return {select(m, a.is_free, b.is_free), select(m, a.pull, b.pull), select(m, a.drag, b.drag),
             select(m, a.velocity, b.velocity), b.effort};
   }
 
-  /// rad/s or m/s: at which a joint at `q` would be at its stop at the end of the step. Where it is beyond, it comes
-  /// back over some steps.
+  /// Returns the velocity (rad/s or m/s) at which a joint at `q` would reach its stop at the end of the step. A joint
+  /// beyond the stop comes back over some steps.
   MURO_INLINE S velocity_to(double stop, S q, double side) const {
     constexpr double part = 0.05;
     const S away = S(stop) - q;
@@ -280,7 +280,7 @@ class Joints {
     return j.leader < 0 && (j.drive == Drive::velocity || j.drive == Drive::acceleration);
   }
 
-  /// As find_law found it.
+  /// Returns the law that find_law() found.
   MURO_INLINE JointLaw<S> law(int k) const {
     const Joint& j = s_.joints[k];
     const OwnLaw<S>& own = work_.laws[k];
@@ -320,8 +320,8 @@ class Joints {
       own.pull = clamp(state.velocity + S(batch_.dt) * target, -speed, speed);
   }
 
-  /// A PD controller with position and velocity of the end of the step: kp (target - q - h v') + kd (target velocity -
-  /// v').
+  /// Sets a PD controller with position and velocity of the end of the step: kp (target - q - h v') + kd (target
+  /// velocity - v').
   MURO_INLINE void drive_to(int k, S target, const State& state, OwnLaw<S>& own) {
     const Joint& j = s_.joints[k];
     S stiffness(j.stiffness), damping(j.drive_damping);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joints: drives, friction, limits and stops, and joints that follow others, against closed forms.
+// Joints: drives, friction, limits and stops, and joints that follow others, compared with closed forms.
 #include "articulated_testing.hpp"
 
 namespace muro::articulated::testing {
@@ -159,7 +159,8 @@ TEST(AMimicJoint, AddsItsInertiaTimesTheSquareOfItsRatio) {
   EXPECT_NEAR(s.q("r/follower"), 0.1 + Geared::ratio * s.q("r/leader"), 1e-12);
 }
 
-/// Two fingers on slides along x, the right one follows the left one; between them a block on nothing.
+/// Two fingers are on slides along x, and the right one follows the left one. Between them is a block that rests on
+/// nothing.
 TEST(AMimicJoint, OfAGripperHoldsABlockByFriction) {
   World w;
   const Shape pad = test::with(Shape::box({0.02, 0.1, 0.1}), 0.8);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The state of a contact point: what it keeps from step to step.
+// State that a contact point keeps from step to step.
 #pragma once
 
 #include "batch.hpp"
@@ -10,11 +10,11 @@ namespace muro::articulated {
 struct KeptContact {
   std::uint64_t pair = 0;            ///< see contact_geometry/kept_contact.hpp
   Vec3 point = Vec3::Zero();         ///< m, world
-  Vec3 way = Vec3::Zero();           ///< m, world: of the point in the step before
-  Vec3 displacement = Vec3::Zero();  ///< m, world: of the friction spring
-  double load = 0;                   ///< N: the normal force of the last step; 0: not known, `unloaded`: none
-  double mean_load = 0;              ///< N: the same, mean over some steps
-  Vec3 turn = Vec3::Zero();          ///< rad, world: of the spring against rolling and spinning
+  Vec3 way = Vec3::Zero();           ///< m, world: way of the point in the step before
+  Vec3 displacement = Vec3::Zero();  ///< m, world: stretch of the friction spring
+  double load = 0;                   ///< N: normal force of the last step; 0: not known, `unloaded`: none
+  double mean_load = 0;              ///< N: mean normal force over some steps
+  Vec3 turn = Vec3::Zero();          ///< rad, world: turn of the spring against rolling and spinning
 };
 static_assert(sizeof(KeptContact) == (1 + kept_numbers) * sizeof(double));
 

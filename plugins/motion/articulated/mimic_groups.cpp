@@ -8,13 +8,13 @@ namespace muro::articulated {
 
 namespace {
 
-/// Bodies behind joints, below the body from which both joints hang.
+/// Bodies behind two joints, below the body from which both joints hang.
 struct Way {
   int anchor = 0;
-  std::vector<int> bodies;  ///< in rising order
+  std::vector<int> bodies;  ///< sorted, in rising order
 };
 
-/// Between the joints of two bodies.
+/// Returns the way between the joints of two bodies.
 Way way_between(const std::vector<Body>& bodies, int a, int b) {
   const auto parent = [&](int i) { return bodies[std::size_t(i)].parent; };
   Way way;
@@ -33,20 +33,20 @@ bool share_bodies(const Way& a, const Way& b) {
                      [&](int i) { return std::binary_search(b.bodies.begin(), b.bodies.end(), i); });
 }
 
-/// Of both; the anchor of one of them lies above that of the other.
+/// Returns the way that has the bodies of both. The anchor of one lies above that of the other.
 Way joined(const Way& a, const Way& b) {
   Way way{std::min(a.anchor, b.anchor), {}};
   std::set_union(a.bodies.begin(), a.bodies.end(), b.bodies.begin(), b.bodies.end(), std::back_inserter(way.bodies));
   return way;
 }
 
-/// A group while it grows.
+/// A group during its construction.
 struct Group {
   Way way;
   std::vector<int> followers;
 };
 
-/// Takes in those of `groups` with which it shares bodies.
+/// Adds a group, joined with those of `groups` that share bodies with it.
 void take_in(std::vector<Group>& groups, Group group) {
   for (;;) {
     const auto other =
@@ -77,7 +77,7 @@ MimicGroups mimic_groups_of(const std::vector<Body>& bodies, const std::vector<J
                           int(of_group.size())});
     all.bodies.insert(all.bodies.end(), of_group.begin(), of_group.end());
     for (const int k : group.followers) {
-      // up to the anchor of the group
+      // bodies on the way up to the anchor of the group
       const int leader = joints[std::size_t(k)].leader, first = int(all.places.size());
       for (int i = int(of_group.size()); i-- > 0;) {
         const auto is_above = [&](int end) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Joints that follow others: constraints between two joints of the tree, exact within the step. Where all that hangs on
-// the anchor of a group is known, the efforts that make its joints follow are known but for the acceleration of the
+// Joints that follow others: constraints between two joints of the tree, exact within the step. When all that hangs on
+// the anchor of a group is known, the efforts that make its joints follow depend only on the acceleration of the
 // anchor, which feels them as an inertia (Featherstone, Rigid Body Dynamics Algorithms, section 8.3 for loop joints;
 // elimination within the group as Jain, Robot and Multibody Dynamics, 2011, chapter 14, on constraint embedding).
 #pragma once
@@ -10,7 +10,7 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-/// Puts mimic joints where their leaders have them, in the robots `which`.
+/// Puts mimic joints at the positions and velocities that follow from their leaders, in the robots `which`.
 template <class S>
 void follow_leaders(const Structure& s, const Work<S>& work, MaskOf<S> which) {
   for (int k = 1; k < s.count; ++k) {
@@ -24,7 +24,7 @@ void follow_leaders(const Structure& s, const Work<S>& work, MaskOf<S> which) {
   }
 }
 
-/// The wrench that a body's response hands on to its parent.
+/// Finds the response of body `i`, and adds the wrench that it hands on to the response of its parent.
 template <int K, class S>
 MURO_INLINE void respond(const Body& b, Work<S>& work, int i) {
   const BodyStep<S>& own = work.bodies[i];
@@ -38,17 +38,17 @@ MURO_INLINE void respond(const Body& b, Work<S>& work, int i) {
   work.responses[b.parent].n += n, work.responses[b.parent].f += f;
 }
 
-/// For accelerate_all(), of robots without mimic joints.
+/// Coupling of accelerate_all() for robots without mimic joints.
 struct NoCoupling {
   MURO_INLINE void fold(int /*body*/) const {}
   MURO_INLINE void accelerate(int /*body*/) const {}
 };
 
-/// For accelerate_all().
+/// Coupling of accelerate_all() for robots with mimic joints.
 template <class S>
 class MimicJoints {
  public:
-  /// Followers have the velocities of their leaders at the end of a step of 1 / `per_second` (s); 0: their
+  /// Makes followers have the velocities of their leaders at the end of a step of 1 / `per_second` (s); 0: their
   /// accelerations.
   MURO_INLINE MimicJoints(const Structure& s, Work<S>& work, S per_second)
       : s_(s), work_(work), per_second_(per_second) {}
@@ -67,7 +67,7 @@ class MimicJoints {
     V3<S> n, f;
   };
 
-  /// The efforts of the group but for the acceleration of its anchor, which then feels them.
+  /// Finds the efforts of the group as functions of the acceleration of its anchor, and adds them to the anchor.
   [[gnu::noinline]] void fold_group(const MimicGroup& g) {
     S matrix[most_mimics][most_mimics];
     Wrench wrenches[most_mimics];
@@ -87,7 +87,7 @@ class MimicJoints {
     }
   }
 
-  /// Adds to each joint of the group what the efforts do.
+  /// Adds the effect of the efforts to each joint of the group.
   [[gnu::noinline]] void accelerate_group(const MimicGroup& g) {
     const BodyStep<S>& anchor = work_.bodies[g.anchor];
     for (int i = 0; i < g.bodies; ++i) clear(body(g, i));
@@ -116,7 +116,7 @@ class MimicJoints {
     with_joint(s_.bodies[k], [&]<int K, bool>() { respond<K>(s_.bodies[k], work_, k); });
   }
 
-  /// Joints of the group accelerate as they do without the efforts, while the anchor does not.
+  /// Accelerates the joints of the group without the efforts, while the anchor does not accelerate.
   void let_go(const MimicGroup& g) {
     const V3<S> zero{S(0), S(0), S(0)};
     work_.bodies[g.anchor].alpha = work_.bodies[g.anchor].a = zero;
@@ -127,14 +127,14 @@ class MimicJoints {
     }
   }
 
-  /// By how much a mimic joint accelerates less than it is to.
+  /// Returns the acceleration that a mimic joint lacks to follow its leader.
   MURO_INLINE S lag(int k) const {
     const auto rate = [&](int n) { return work_.bodies[n].qdd + work_.stages[n].qd * per_second_; };
     return rate(s_.joints[k].leader) * factor_of<S>(s_, k) - rate(k);
   }
 
-  /// What the unit effort of mimic joint i and the effort that it costs its leader lack at each joint on their way, and
-  /// the wrench that the anchor feels of them.
+  /// Finds the efforts that joints on the way lack by a unit effort of mimic joint i and the effort that this costs its
+  /// leader. Returns the wrench that the anchor feels.
   Wrench innovate(const MimicGroup& g, int i) {
     const MimicWay& w = way(g, i);
     const int* const places = s_.mimic_places + w.first_place;
@@ -152,8 +152,9 @@ class MimicJoints {
     return {work_.responses[g.anchor].n, work_.responses[g.anchor].f};
   }
 
-  /// How much mimic joint i, and by symmetry each one before it, gains on its leader by a unit effort at the other: the
-  /// inverse of the matrix of inertia is (1 - H psi K)' D^-1 (1 - H psi K) (Rodriguez, Jain, Kreutz-Delgado, 1992).
+  /// Finds the acceleration that mimic joint i gains on its leader by a unit effort at each joint before it and at
+  /// itself; the matrix is symmetric. The inverse of the matrix of inertia is (1 - H psi K)' D^-1 (1 - H psi K)
+  /// (Rodriguez, Jain, Kreutz-Delgado, 1992).
   void find_mobilities(const MimicGroup& g, int i, S (&to)[most_mimics]) {
     const MimicWay& w = way(g, i);
     const int* const places = s_.mimic_places + w.first_place;
@@ -168,7 +169,7 @@ class MimicJoints {
     }
   }
 
-  /// Of a symmetric, positive matrix, of which the lower half is used; a row of zeros where both joints are held.
+  /// Solves for a symmetric, positive matrix by its lower half. A row is zero when both joints are held.
   static void solve(S (&matrix)[most_mimics][most_mimics], Following<S> (&x)[most_mimics], int count) {
     const S zero(0);
     for (int i = 0; i < count; ++i) {
@@ -192,7 +193,7 @@ class MimicJoints {
     from.per_a = from.per_a - factor * x.per_a;
   }
 
-  /// What an effort does to the anchor by the wrench of a unit of it.
+  /// Adds the effect of an effort on the anchor; `w` is the wrench of a unit effort.
   MURO_INLINE static void add(const Wrench& w, const Following<S>& x, Inertia<S>& to) {
     const V3<S>&p = x.per_alpha, &q = x.per_a;
     to.A.xx += w.n.x * p.x, to.A.yy += w.n.y * p.y, to.A.zz += w.n.z * p.z;
@@ -206,10 +207,11 @@ class MimicJoints {
   const Structure& s_;
   Work<S>& work_;
   S per_second_;
-  int next_ = 0;  ///< group
+  int next_ = 0;  ///< number of the next group
 };
 
-/// Of all bodies and joints. `is_again`: only what has changed since the last time, see Work::changed.
+/// Finds the accelerations of all bodies and joints. `is_again`: only of what has changed since the last time, see
+/// Work::changed.
 template <class S>
 MURO_INLINE void accelerate_all(const Structure& s, const Masses<S>& masses, Work<S>& work, const V3<S>& fall,
                                 S per_second, bool is_again = false) {

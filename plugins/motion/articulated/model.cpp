@@ -16,7 +16,7 @@ struct SignedAxis {
   double sign = 1;
 };
 
-/// The axis of the frame that a unit vector is, to rounding.
+/// Returns the axis of the frame that is equal to a unit vector, to rounding.
 std::optional<SignedAxis> frame_axis(const Vec3& v) {
   constexpr double rounding = 1e-12;
   for (int k = 0; k < 3; ++k)
@@ -31,10 +31,12 @@ void set_turn(Body& body, const Mat3& turn) {
   for (int k = 0; k < 9; ++k) body.turn[k] = turn(k % 3, k / 3);
 }
 
-/// How the frame of the kernel lies in that of a body: from the one into the other.
+/// Rotations of the kernel's frames in those of bodies: each turns a vector of the kernel's frame into the body's
+/// frame.
 using Frames = std::vector<Quat>;
 
-/// `in_parent`: the body's frame in the kernel's frame of its parent. Returns how the kernel's frame is turned to it.
+/// Sets the axis of a body. `in_parent`: the body's frame in the kernel's frame of its parent. Returns the rotation of
+/// the kernel's frame in the body's frame.
 Quat set_axis(Body& body, const multibody::RigidBody& rigid, const Pose& in_parent) {
   for (int k = 0; k < 3; ++k) body.offset[k] = in_parent.position[k];
   body.shifted = !in_parent.position.isZero(0);
@@ -56,7 +58,7 @@ Quat set_axis(Body& body, const multibody::RigidBody& rigid, const Pose& in_pare
   return to_body;
 }
 
-/// Finds the kernel's frames, and sets bodies if there are any to be set.
+/// Finds the kernel's frames, and sets `bodies` if it is not null.
 Frames find_frames(const multibody::RobotModel& robot, std::vector<Body>* bodies) {
   Frames frames(robot.bodies.size(), Quat::Identity());
   for (std::size_t i = 1; i < robot.bodies.size(); ++i) {
@@ -70,14 +72,14 @@ Frames find_frames(const multibody::RobotModel& robot, std::vector<Body>* bodies
   return frames;
 }
 
-/// Few places, used again.
+/// Assigns slots to bodies: few slots, which are used again.
 int assign_slots(std::vector<Body>& bodies) {
   std::vector<int> unused;
   std::vector<bool> has_child(bodies.size());
   int slots = 0;
   for (std::size_t i = bodies.size(); i-- > 0;) {
     Body& b = bodies[i];
-    if (b.slot >= 0) unused.push_back(b.slot);  // it has been read
+    if (b.slot >= 0) unused.push_back(b.slot);  // its inertia has been read
     if (b.parent < 0) continue;
     const auto p = std::size_t(b.parent);
     b.first = !has_child[p];
@@ -105,7 +107,7 @@ Joint joint_of(const multibody::RigidBody& body) {
   return j;
 }
 
-/// A leader bears the friction of what follows it; that is held by nothing of its own.
+/// Hands the friction of mimic joints on to their leaders. The mimic joint itself has no friction and no stops.
 void hand_on_friction(std::vector<Joint>& joints) {
   for (Joint& j : joints) {
     if (j.leader < 0) continue;

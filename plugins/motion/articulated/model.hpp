@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot's rigid bodies as the kernel sees them: what robots that are moved together have in common, and their masses.
+// Rigid bodies of a robot in the form of the kernel: the structure that robots moved together share, and their masses.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace muro::articulated {
 
 struct Model {
   std::vector<Body> bodies;
-  std::vector<Joint> joints;  ///< one per body, that of the base unused
+  std::vector<Joint> joints;  ///< one per body; that of the base is unused
   MimicGroups mimics;
   int slots = 0;
   bool fixed = false;
@@ -21,12 +21,12 @@ struct Model {
   bool operator==(const Model&) const = default;
 };
 
-/// Bodies have frames that are parallel to those of their parents where the axis of the joint is one of theirs, and
-/// else have the axis of the joint as one of their own. What joints follow is not set. [setup]
+/// Returns the bodies of a robot. Their frames are parallel to those of their parents if the axis of the joint is an
+/// axis of these; else the axis of the joint is an axis of their own. The drives of joints are not set. [setup]
 Model model_of_bodies(const multibody::RobotModel& robot);
-/// Of all bodies, in the frames that the model gives them. [setup]
+/// Returns the masses of all bodies, in the frames that the model gives them. [setup]
 std::vector<Mass> masses_of_bodies(const multibody::RobotModel& robot);
-/// m: of the whole robot as it starts. [setup]
+/// Returns the radius of gyration of the whole robot as it starts (m). [setup]
 double radius_of_gyration(const multibody::RobotModel& robot);
 
 }  // namespace muro::articulated

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The inertias that joints move, of a pack of robots: those of plugins/motion/common/position_drive/moved_inertias.hpp.
+// Inertias that joints move, of a pack of robots: those of plugins/motion/common/position_drive/moved_inertias.hpp.
 #pragma once
 
 #include "dynamics.hpp"
@@ -22,7 +22,7 @@ struct Composite {
   }
 };
 
-/// A body by itself, about the point `about` (m, world).
+/// Returns one body alone, about the point `about` (m, world).
 template <class S>
 MURO_INLINE Composite<S> composite_of(const Masses<S>& masses, int i, const BodyStep<S>& body, const V3<S>& about) {
   S n[Mass::numbers];
@@ -36,7 +36,7 @@ MURO_INLINE Composite<S> composite_of(const Masses<S>& masses, int i, const Body
   return {m, h + m * d, second};
 }
 
-/// kg m^2 or kg: about or along the axis of a joint through the point `p`, from the point of the moments.
+/// Returns the inertia (kg m^2 or kg) about or along `axis` through `p`, from the point of the moments.
 template <class S>
 MURO_INLINE S along(const Composite<S>& c, bool slides, const V3<S>& axis, const V3<S>& p) {
   if (slides) return c.mass;

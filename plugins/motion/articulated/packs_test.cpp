@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots of one structure and different masses: the bits of each are those that it gets alone, in packs of any number,
+// Robots of one structure and different masses: each gets the same bits in a pack as alone, in packs of any number,
 // with each instruction set.
 #include <cstdlib>
 
@@ -18,7 +18,7 @@ struct InstructionSet {
   std::string before;
 };
 
-/// A trunk with two arms, one of which follows the other, and a foot on a slide.
+/// Returns a trunk with two arms, one of which follows the other, and a foot on a slide.
 RobotTree robot_of(double scale, double restitution = 0) {
   Shape trunk = test::with(Shape::box({0.3, 0.2, 0.1}), 0.6), ball = test::with(Shape::sphere(0.06), 0.6);
   trunk.surface.restitution = ball.surface.restitution = restitution;
@@ -46,9 +46,9 @@ RobotTree robot_of(double scale, double restitution = 0) {
   });
 }
 
-/// Robots number `first` to `first` + `count` - 1; their hashes after 0.6 s on the ground. With restitution they are
-/// thrown at it, all at the same instant, some aslant, and every third of them lies under a plate that moves to and fro
-/// on it.
+/// Returns the hashes of robots number `first` to `first` + `count` - 1 after 0.6 s on the ground. With restitution
+/// they are thrown at it, all at the same instant, some at an angle. Then every third lies under a plate that moves to
+/// and fro on it.
 std::vector<std::uint64_t> hashes_of(int first, int count, double restitution) {
   World w;
   w.add_ground(0.6);
@@ -86,7 +86,7 @@ std::vector<std::uint64_t> hashes_of(int first, int count, double restitution) {
   return hashes;
 }
 
-/// The hash of a robot on its box, with rolling resistance between them, beside `others` on boxes without.
+/// Returns the hash of a robot on its box, with rolling resistance between them, beside `others` on boxes without.
 std::uint64_t hash_beside(int others, double resistance, bool is_last) {
   World w;
   Shape box = test::with(Shape::box({1, 1, 0.5}), 0.6);
@@ -95,7 +95,7 @@ std::uint64_t hash_beside(int others, double resistance, bool is_last) {
     w.world().add_scenery(name + "_box", {{x, 0, -0.25}, Quat::Identity()}, std::span<const Shape>(&box, 1));
     w.add(name, robot_of(1), {{x, 0, 0.2}, from_rpy(0.1, 0.05, 0.3)}, {{0.1, 0, 0}, {0.5, 0.2, 1}});
   };
-  box.surface.rolling_resistance = 0.01;  // in all worlds, so that all have the same properties
+  box.surface.rolling_resistance = 0.01;  // this box is in all worlds, so that all have the same properties
   w.world().add_scenery("far_box", {{-9, 0, 0}, Quat::Identity()}, std::span<const Shape>(&box, 1));
   if (!is_last) put("r", 0, resistance);
   for (int i = 0; i < others; ++i) put("o" + std::to_string(i), 2 + 2 * i, resistance > 0 ? 0 : 0.01);

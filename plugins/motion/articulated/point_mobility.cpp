@@ -52,7 +52,7 @@ void PointMobility::set_poses(std::span<const Pose> poses) {
   if (!fixed_base_) base_inverse_ = bodies_.front().inertia.partialPivLu().inverse();
 }
 
-/// Of a body to the base.
+/// Marks the way from a body to the base.
 void PointMobility::mark_way(std::uint32_t body) {
   for (auto i = std::int32_t(body); i >= 0 && !bodies_[std::size_t(i)].is_on_way; i = bodies_[std::size_t(i)].parent) {
     bodies_[std::size_t(i)].is_on_way = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How two bodies of a robot give way to equal and opposite forces at a point.
+// Mobility of two bodies of a robot under equal and opposite forces at a point.
 #pragma once
 
 #include <span>
@@ -9,22 +9,22 @@
 
 namespace muro::articulated {
 
-/// J M^-1 J', with J the Jacobian of the velocity of one body against another at a point, by the articulated-body
+/// Finds J M^-1 J', with J the Jacobian of the velocity of one body against another at a point, by the articulated-body
 /// algorithm with unit forces (Featherstone, Rigid Body Dynamics Algorithms, 2008, section 7.3). Joints count as free;
-/// what holds them only makes bodies give way less.
+/// if something holds them, the mobility is only smaller.
 class PointMobility {
  public:
   PointMobility() = default;
-  /// [setup]
+  /// Takes the bodies of the model. [setup]
   explicit PointMobility(const multibody::RobotModel& model);
-  /// `poses`: of the bodies, world, by number.
+  /// Sets the poses of the bodies (world), by number.
   void set_poses(std::span<const Pose> poses);
-  /// 1/kg, world axes: change of the velocity of body `a` against body `b` at `point` (m, world) by an impulse on `a`
-  /// there, and the opposite one on `b`.
+  /// Returns the change of the velocity of body `a` against body `b` at `point` (m, world) by an impulse on `a` there
+  /// and the opposite impulse on `b`. 1/kg, world axes.
   Mat3 between(std::uint32_t a, std::uint32_t b, const Vec3& point);
 
  private:
-  using Spatial = Eigen::Matrix<double, 6, 1>;  ///< angular, linear at origin_; of wrenches torque, force
+  using Spatial = Eigen::Matrix<double, 6, 1>;  ///< angular, linear at origin_; for wrenches torque, force
   using Columns = Eigen::Matrix<double, 6, 3>;
   struct Body {
     std::int32_t parent = -1;
@@ -33,7 +33,7 @@ class PointMobility {
     double armature = 0;                                                        ///< kg m^2 or kg
     Inertia own;                                                                ///< in its frame
     Eigen::Matrix<double, 6, 6> inertia = Eigen::Matrix<double, 6, 6>::Zero();  ///< articulated
-    Spatial direction = Spatial::Zero(), moved = Spatial::Zero();               ///< of the joint; inertia times it
+    Spatial direction = Spatial::Zero(), moved = Spatial::Zero();               ///< of the joint, and inertia times it
     double give = 0;                                                            ///< 1 / inertia that the joint moves
     bool is_on_way = false;
     Columns wrench = Columns::Zero(), acceleration = Columns::Zero();

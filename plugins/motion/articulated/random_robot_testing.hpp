@@ -8,7 +8,7 @@
 
 namespace muro::articulated::testing {
 
-/// A tensor of inertia with the principal moments of a solid box.
+/// Returns a mass whose tensor of inertia has the principal moments of a solid box.
 inline Inertia random_inertia(test::Randoms& random) {
   const double mass = random.uniform(0.2, 3), a = random.uniform(0.05, 0.4), b = random.uniform(0.05, 0.4),
                c = random.uniform(0.05, 0.4);
@@ -18,7 +18,7 @@ inline Inertia random_inertia(test::Randoms& random) {
                        axes * moments.asDiagonal() * axes.transpose());
 }
 
-/// Hinges and slides about and along axes of frames and others, at places that are turned or not.
+/// Returns a robot with hinges and slides on axes of frames and other axes, at places that are turned or not.
 inline multibody::RobotModel random_robot(test::Randoms& random, int bodies, bool fixed) {
   multibody::RobotModel robot;
   robot.name = "r";

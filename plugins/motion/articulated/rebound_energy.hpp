@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The energy of a body that is hit. Contacts give it velocities for where it is as the step begins; where it has
-// turned by the end of the step, these may be more than it had. Then what contacts have done counts in that part which
-// leaves it no more (Stronge, Impact Mechanics, 2000, section 3.3: restitution of energy).
+// Energy of a body that is hit. Contacts give it velocities for its pose at the begin of the step. At the pose of the
+// end of the step, these may have more energy than the body had. Then only the part of the contact impulses counts that
+// leaves the body no more energy (Stronge, Impact Mechanics, 2000, section 3.3: restitution of energy).
 #pragma once
 
 #include "flight.hpp"
@@ -9,14 +9,15 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-/// Twice the kinetic energy, J.
+/// Returns twice the kinetic energy (J).
 template <class S>
 MURO_INLINE S twice_energy(const V3<S>& linear, const V3<S>& angular, S mass, const Sym<S>& inverse_tensor) {
   return dot(linear, linear) / mass + dot(angular, inverse_tensor * angular);
 }
 
-/// Of robots that are one body. `before`: at the begin of the step; `weight`: N; `dt`: s; `which`: robots that are hit,
-/// and to which nothing gives energy; `pose`: of the base, at the end; `twist`: there, in and out. Changes the body.
+/// Takes gained energy from robots of one body. `before`: at the begin of the step; `weight`: N; `dt`: s; `which`:
+/// robots that are hit, and that nothing gives energy; `pose`: of the base, at the end; `twist`: there, in and out.
+/// Changes the body.
 template <class S>
 [[gnu::noinline]] void take_gained_energy(const Structure& s, const Masses<S>& masses, BodyStep<S>& body,
                                           const Momentum<S>& before, const V3<S>& weight, double dt, MaskOf<S> which,
@@ -39,7 +40,7 @@ template <class S>
   const S root = sqrt(max(b * b - a * c, S(0)));
   const S part = min(max((root - b) / max(a, S(1e-300)), S(0)), S(1));
   const V3<S> p = linear + part * impulse, l = angular + part * turning;
-  // where it was put higher than it could go by itself, no part does
+  // if it was put higher than it could go on its own, no part solves this
   const S has = max(twice_energy(p, l, end.mass, inverse_tensor), S(1e-300)),
           slower = sqrt(min(max(had, S(0)) / has, S(1)));
   const V3<S> spin = inverse_tensor * (slower * l);

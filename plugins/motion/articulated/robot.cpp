@@ -38,7 +38,8 @@ constexpr Drive drive_of(DriveMode mode) {
   return Drive::passive;
 }
 
-/// How far `place` is from the first such place of the robot, which it is if there is none so far.
+/// Returns the distance of `place` from the first such place of the robot. If there is none so far, `place` is the
+/// first.
 template <class T>
 std::ptrdiff_t offset_from(T*& first, T* place) {
   if (!first) first = place;
@@ -99,7 +100,7 @@ void Robot::connect_joints(Connector& c, const RobotView& view, const Parameters
                 " moves robots with up to " + std::to_string(most_mimics) + " of them");
 }
 
-/// When it is known what algorithms command.
+/// Connects drives, when it is known which properties algorithms command.
 void Robot::connect_drives(Connector& c, const RobotView& view, const Parameters& p) {
   const std::vector<DriveMode> modes = settled_modes(c, view, p);
   const std::vector<PositionDrive> drives = position_drives_of(c, view, modes, p);
@@ -131,7 +132,7 @@ void Robot::connect_links(Connector& c) {
   wrenches_.resize(6 * rigid_.bodies.size());
 }
 
-/// What interpolated targets keep, and the integrator.
+/// Connects the memory of interpolated targets and of the integrator.
 void Robot::connect_memory(Connector& c, const RobotView& view, bool keeps_accelerations) {
   std::size_t of_targets = 0;
   for (const JointHandles& joint : joints_) of_targets += joint.position_target.memory_size();
@@ -152,7 +153,7 @@ void Robot::connect_memory(Connector& c, const RobotView& view, bool keeps_accel
   state_.accelerations = of_integrator > 0 ? next : nullptr;
 }
 
-/// Of a robot with one link there are none.
+/// Connects contacts among links; a robot with one link has none.
 void Robot::connect_self_contacts(Connector& c, const RobotView& view, const Parameters& p) {
   rigid_.self_collision = p.boolean(multibody::self_collision.name);
   const auto has_shapes = [](const multibody::LoadedLink& link) { return link.has_shapes; };
@@ -185,7 +186,7 @@ void Robot::connect_by_name(Connector& c, const RobotView& view, const Parameter
   set_offsets();
 }
 
-/// Where the numbers of the robot lie.
+/// Sets the places of the numbers of the robot.
 void Robot::set_offsets() {
   state_.pose = lane::numbers(pose_.get());
   state_.twist = lane::numbers(twist_.get());
@@ -262,7 +263,7 @@ void Robot::prepare(double dt) {
   fetch_contacts();
 }
 
-/// From memory, early: what the kernel and export_contacts() will need.
+/// Fetches early from memory what the kernel and export_contacts() will need.
 void Robot::fetch_contacts() const {
   constexpr std::size_t line = 64 / sizeof(double);
   for (const KernelContact& contact : contacts_.contacts()) {
@@ -282,7 +283,7 @@ void Robot::advance_targets(double dt) {
   }
 }
 
-/// Those on links at the origins of their bodies.
+/// Sums the wrenches on links at the origins of their bodies.
 void Robot::sum_wrenches() {
   state_.wrenches = nullptr;
   if (only_contacts_push_ && !contacts_.touches_robots()) return;
@@ -317,7 +318,8 @@ void Robot::take_impacts(const Step& step) {
                                  1 / inertia.mass, *correction);
 }
 
-/// Kernels tell the sums of contacts of bodies; of those with several links, export_contacts() finds them.
+/// Finds the links that touch. Kernels write the sums of contacts of bodies; for bodies with several links,
+/// export_contacts() finds them.
 void Robot::find_touching_links() {
   if (!links_are_clear_)
     for (const LoadedLink& link : links_)
@@ -339,13 +341,13 @@ void Robot::find_touching_links() {
   state_.body_wrenches = are_bodies ? touching_wrenches_.data() : nullptr;
 }
 
-/// Those from number `first` on of links that touched in the last step, and now perhaps do not.
+/// Clears the contact wrenches from number `first` on: of links that touched in the last step, and now perhaps do not.
 void Robot::clear_contact_wrenches(std::size_t first) {
   for (std::size_t k = first; k < touching_links_.size(); ++k) *links_[touching_links_[k]].contact = Wrench{};
   touching_links_.resize(first);
 }
 
-/// Of those from `begin` to `end`, at `origin` (m, world).
+/// Returns the sum of the contacts from `begin` to `end`, at `origin` (m, world).
 Wrench Robot::sum_of_contacts(std::size_t begin, std::size_t end, const Vec3& origin) const {
   using lane::V3;
   const KernelContact* contact = contacts_.contacts().data() + begin;

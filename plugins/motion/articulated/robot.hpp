@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot of motion.articulated: the properties that its state lies in, and what acts on it.
+// A robot of motion.articulated: the properties that hold its state, and the wrenches on it.
 #pragma once
 
 #include <memory>
@@ -18,42 +18,42 @@ namespace muro::articulated {
 
 class Robot {
  public:
-  /// `level`: the motion.level at which this motion moves the robot. [setup]
+  /// Connects the robot. `level`: the motion.level at which this motion moves it. [setup]
   Robot(Connector& c, const RobotView& view, const Parameters& p, std::uint32_t level);
-  /// Finds out what is commanded and what is read. [setup]
+  /// Finds which properties are commanded and read. [setup]
   void connect_by_name(Connector& c, const RobotView& view, const Parameters& p);
-  /// All handles may be read; the run begins or goes on. [setup]
+  /// Begins or continues the run; all handles may be read. [setup]
   void start();
-  /// Another motion has moved the robot so far.
+  /// Continues after another motion has moved the robot.
   void take_over();
 
   const multibody::RobotModel& model() const { return rigid_; }
-  /// For kernels; whole after connect_by_name(). [setup]
+  /// Returns the model for kernels; it is complete after connect_by_name(). [setup]
   const Model& kernel_model() const { return model_; }
   const RobotState& state() const { return state_; }
   const Pose& pose() const { return *pose_; }
   const Twist& twist() const { return *twist_; }
-  /// Calls `visit` for what adds to the wrench on each link.
+  /// Calls `visit` for the sum of external wrenches on each link.
   template <class Visit>
   void each_external(Visit visit) const {
     for (const LoadedLink& link : links_) visit(link.external);
   }
-  /// Of joints, one per link (rad/s or m/s); null where there is none. [setup]
+  /// Velocities of joints, one per link (rad/s or m/s); null where there is none. [setup]
   const std::vector<const double*>& velocities() const { return velocities_; }
-  /// Of its bodies.
+  /// Masses of its bodies.
   const std::vector<Mass>& masses() const { return masses_; }
   std::size_t contact_count() const { return contacts_.contacts().size(); }
 
   /// Finds contacts. [step, before any robot moves]
   void look_up_contacts(const TouchedBodies& bodies) { contacts_.look_up(bodies); }
-  /// Brings the state up to date for a step of `dt` (s).
+  /// Updates the state for a step of `dt` (s).
   void prepare(double dt);
-  /// Where impacts with other robots in the last step should have acted at their instant, brings the robot onto the
-  /// path on which it then were. [after it has moved]
+  /// Brings the robot onto its corrected path, if impacts with other robots in the last step should have acted at their
+  /// instant. [after it has moved]
   void take_impacts(const Step& step);
-  /// Tells what contacts have done.
+  /// Writes the results of contacts.
   void export_contacts();
-  /// Why the state is no longer finite.
+  /// Returns the reason why the state is no longer finite.
   std::string failure() const;
 
  private:
@@ -64,18 +64,18 @@ class Robot {
     PositionTarget position_target;
     DriveLosses losses;
   };
-  /// A drive's, with all that a step needs of it side by side.
+  /// Target of a drive, with the data that a step needs of it side by side.
   struct InterpolatedTarget {
     PositionTarget target;
-    const double* position = nullptr;  ///< rad or m: of the joint
+    const double* position = nullptr;  ///< rad or m: position of the joint
     JointLimits limits;
-    double* to = nullptr;  ///< in targets_
+    double* to = nullptr;  ///< place in targets_
   };
   /// The base, or a link with shapes.
   struct LoadedLink {
     SumIn<Wrench> external;
-    Out<Wrench> contact;  ///< none without shapes
-    Out<Wrench> applied;  ///< where somebody reads it
+    Out<Wrench> contact;  ///< there is none without shapes
+    Out<Wrench> applied;  ///< used if somebody reads it
     In<Pose> pose, pose_of_body;
     bool is_body = false;  ///< its frame is that of its body
   };
@@ -113,24 +113,24 @@ class Robot {
   std::vector<JointHandles> joints_;                                       ///< one per body
   std::vector<const double*> velocities_;                                  ///< one per link
   std::vector<Out<double>> positions_out_, velocities_out_, efforts_out_;  ///< one per body
-  std::vector<double> targets_;  ///< of drives that interpolate: positions, then velocities
+  std::vector<double> targets_;  ///< targets of drives that interpolate: positions, then velocities
   std::vector<InterpolatedTarget> interpolated_;
-  std::vector<LoadedLink> links_;  ///< as rigid_.loaded_links
+  std::vector<LoadedLink> links_;  ///< same order as rigid_.loaded_links
   bool has_contact_law_ = false;   ///< a contact algorithm adds to wrenches
   bool tells_contacts_ = false, tells_applied_ = false;
-  bool only_contacts_push_ = false;            ///< nothing but the contact algorithm adds to wrenches
-  std::vector<std::uint32_t> touching_links_;  ///< in links_, that contacts push in this step or the last
-  std::vector<double*> touching_wrenches_;     ///< of those that contacts with others push in this step
+  bool only_contacts_push_ = false;            ///< only the contact algorithm adds to wrenches
+  std::vector<std::uint32_t> touching_links_;  ///< indices of links_ that contacts push now or in the last step
+  std::vector<double*> touching_wrenches_;     ///< wrenches of those that contacts with others push in this step
   bool links_are_clear_ = false;
   ListOut<ContactWrench> told_;
-  Vec3 start_ = Vec3::Zero();  ///< m: where the base was when the step began
+  Vec3 start_ = Vec3::Zero();  ///< m: position of the base at the begin of the step
   RobotContacts contacts_;
   SelfContacts self_contacts_;
   SelfContacts::Law self_contact_law_;
-  contact_geometry::ImpactInput impacts_;  ///< of a robot that is one free body
-  std::vector<double> wrenches_;           ///< on bodies
+  contact_geometry::ImpactInput impacts_;  ///< for a robot that is one free body
+  std::vector<double> wrenches_;           ///< wrenches on bodies
   std::span<double> accelerations_;        ///< see RobotState
-  std::vector<double> contact_wrenches_;   ///< of contacts
+  std::vector<double> contact_wrenches_;   ///< wrenches of contacts
 };
 
 }  // namespace muro::articulated

@@ -12,7 +12,7 @@
 
 namespace muro::articulated {
 
-// as kernels read them
+// the layout that kernels read
 static_assert(offsetof(Contact, normal) == offsetof(Contact, point) + 3 * sizeof(double) &&
               offsetof(Contact, depth) == offsetof(Contact, point) + 6 * sizeof(double) &&
               offsetof(Contact, surface.friction) == offsetof(Contact, point) + 7 * sizeof(double) &&
@@ -103,7 +103,7 @@ void RobotContacts::find(const TouchedBodies& bodies) {
   for (std::uint32_t i = 0; i < list.size(); ++i) {
     const Contact& c = list[i];
     const TouchedBodies::Touched& other = bodies[c.other];
-    if (other.pose && place_of(c.other)) continue;  // of two links: see self_contacts.hpp
+    if (other.pose && place_of(c.other)) continue;  // a contact of two links: see self_contacts.hpp
     touches_robots_ = touches_robots_ || other.pose;
     if (other.world && is_moved_by_forces(*other.world)) continue;
     const LinkPlace* const link = place_of(c.self);
@@ -125,8 +125,8 @@ void RobotContacts::find(const TouchedBodies& bodies) {
   find_joins();
 }
 
-/// By links within a body. Contacts stand in the order of links, which is that of bodies but for links behind fixed
-/// joints.
+/// Sorts contacts by body, and within a body by link. The list is in the order of links. That is the order of bodies
+/// except for links behind fixed joints.
 void RobotContacts::sort_by_body() {
   const auto is_before = [this](std::size_t a, std::size_t b) {
     return contacts_[a].body != contacts_[b].body ? contacts_[a].body < contacts_[b].body
@@ -162,8 +162,8 @@ void RobotContacts::find_links() {
   }
 }
 
-/// A list of the same pairs has the contacts of the step before, in their order, so that a restored state goes on as
-/// the one that it was taken from; of others the nearest counts.
+/// Keeps the state of contacts that last. In a list of the same pairs, each contact continues the one at its place in
+/// the step before, so that a restored state continues as the original. In another list, the nearest one counts.
 void RobotContacts::keep_what_lasts(const TouchedBodies& bodies) {
   const auto list = *list_;
   const auto pair_at = [&](std::size_t i) {
@@ -188,7 +188,8 @@ void RobotContacts::keep_what_lasts(const TouchedBodies& bodies) {
     contacts_[i].kept = (*kept_)[i].point.data(), contacts_[i].extent = &extents_[i];
 }
 
-/// Two contacts of two shapes may be the ends of a line, more the corners of a face: kernels find that out.
+/// Finds contacts of the same two shapes. Two may be the ends of a line, more the corners of a face: kernels find that
+/// out.
 void RobotContacts::find_joins() {
   constexpr int bits = 8;
   for (std::size_t i = 1; i < contacts_.size(); ++i) {

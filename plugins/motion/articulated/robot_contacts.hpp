@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The contacts of a robot that its motion resolves: with scenery and with robots that no force moves.
+// Contacts of a robot that its motion resolves: those with scenery and with robots that no force moves.
 #pragma once
 
 #include <span>
@@ -12,17 +12,17 @@
 
 namespace muro::articulated {
 
-/// The bodies of a scene that robots can touch, by object id.
+/// Bodies of a scene that robots can touch, by object id.
 class TouchedBodies {
  public:
-  /// [setup]
+  /// Connects shapes and contact worlds. [setup]
   void connect(Connector& c);
-  /// The same of poses, which others make. [setup]
+  /// Connects poses, which other algorithms write. [setup]
   void connect_by_name(Connector& c);
 
   struct Touched {
     std::uint64_t name = 0;  ///< hash
-    In<Pose> pose;           ///< none: scenery
+    In<Pose> pose;           ///< not connected for scenery
     In<Twist> twist;
     In<std::uint64_t> world;  ///< keys::contact_world of its robot
     std::vector<contact_geometry::ShapeExtent> shapes;
@@ -36,19 +36,19 @@ class TouchedBodies {
 class RobotContacts {
  public:
   RobotContacts() = default;
-  /// Of a robot without shapes there are none. [setup]
+  /// Connects the contacts; a robot without shapes has none. [setup]
   RobotContacts(Connector& c, const RobotView& view, const multibody::RobotModel& model);
 
   /// Finds the contacts of the step that begins. [step, before any robot moves]
   void look_up(const TouchedBodies& bodies);
-  /// Nothing is known of earlier steps. Takes the memory that steps need. [setup]
+  /// Forgets earlier steps, and takes the memory that steps need. [setup]
   void start();
-  /// Another motion has moved the robot so far.
+  /// Continues after another motion has moved the robot.
   void take_over() const {
     if (kept_) kept_.clear();
   }
 
-  /// By body, in rising order.
+  /// Returns the contacts, by body in rising order.
   std::vector<KernelContact>& contacts() { return contacts_; }
   const std::vector<KernelContact>& contacts() const { return contacts_; }
   /// See RobotState::contact_bodies and contact_faces.
@@ -56,11 +56,11 @@ class RobotContacts {
   std::uint64_t faces() const { return faces_; }
   /// Whether there are contacts with other robots in the list.
   bool touches_robots() const { return touches_robots_; }
-  /// That of the list which contact `i` is.
+  /// Returns contact `i` as it is in the list.
   const Contact& contact(std::size_t i) const { return (*list_)[places_[i].in_list]; }
-  /// Contacts of one loaded link, which follow each other.
+  /// Contacts of one loaded link. They follow each other.
   struct OfLink {
-    std::uint32_t link = 0, end = 0;  ///< the first of the next link
+    std::uint32_t link = 0, end = 0;  ///< `end`: number of the first contact of the next link
   };
   std::span<const OfLink> of_links() const { return of_links_; }
 
@@ -77,9 +77,9 @@ class RobotContacts {
 
   struct LinkPlace {
     ObjectId object = no_object;
-    std::uint32_t loaded_link = 0;  ///< in RobotModel
+    std::uint32_t loaded_link = 0;  ///< index in RobotModel
     int body = 0;
-    Quat orientation = Quat::Identity();  ///< in the body's frame
+    Quat orientation = Quat::Identity();  ///< orientation in the body's frame
   };
   const LinkPlace* place_of(ObjectId object) const;
 
@@ -91,15 +91,15 @@ class RobotContacts {
   ListIn<Contact> list_;
   ListOut<KeptContact> kept_;
   std::vector<LinkPlace> link_places_;
-  std::uint64_t revision_ = no_revision;  ///< of the list, when contacts were found
-  std::size_t length_ = 0;                ///< the same
+  std::uint64_t revision_ = no_revision;  ///< revision of the list when contacts were found
+  std::size_t length_ = 0;                ///< length of the list when contacts were found
   bool touches_robots_ = false;
   std::vector<KernelContact> contacts_;
   std::uint64_t bodies_ = 0, faces_ = 0;
-  std::vector<ContactExtent> extents_;  ///< of contacts
-  std::vector<Place> places_;           ///< of contacts
+  std::vector<ContactExtent> extents_;  ///< one per contact
+  std::vector<Place> places_;           ///< one per contact
   std::vector<OfLink> of_links_;
-  std::vector<Twist> others_;  ///< of contacts: velocity of what they touch, at the point
+  std::vector<Twist> others_;  ///< one per contact: velocity of what it touches, at the point
   std::vector<KeptContact> before_;
 };
 

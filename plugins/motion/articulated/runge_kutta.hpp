@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The classical method of Runge and Kutta, order 4, for what moves smoothly within a step: gravity, inertia and the
-// velocities of bodies. What drives, friction, stops and contacts do in the step is found first, as always, and stays
-// as it is: efforts along the joints, wrenches on the bodies; held joints keep their acceleration.
+// The classical method of Runge and Kutta, order 4, for smooth motion within a step: gravity, inertia and the
+// velocities of bodies. The effects of drives, friction, stops and contacts in the step are found first, as always, and
+// stay constant: efforts along the joints, wrenches on the bodies. Held joints keep their acceleration.
 #pragma once
 
 #include "joints.hpp"
@@ -27,7 +27,7 @@ struct BaseState {
 template <class S>
 class RungeKutta {
  public:
-  /// After the trials of a step: efforts and wrenches are those that bodies have come to.
+  /// Starts after the trials of a step, with the efforts and wrenches that bodies have reached.
   RungeKutta(const Batch& batch, const Masses<S>& masses, const Joints<S>& joints, Work<S>& work)
       : batch_(batch), s_(batch.structure), masses_(masses), work_(work), gravity_(splat<S>(batch.gravity)) {
     for (int k = 1; k < s_.count; ++k) {
@@ -42,7 +42,7 @@ class RungeKutta {
     keep_wrenches();
   }
 
-  /// Joints of bodies move; returns the base at the end of the step.
+  /// Moves the joints. Returns the base at the end of the step.
   BaseState<S> carry(const BaseState<S>& start) {
     const S h(batch_.dt), half(0.5 * batch_.dt);
     const BaseState<S> k1 = rate(start);
@@ -58,7 +58,7 @@ class RungeKutta {
       const JointStage<S>& j = work_.stages[k];
       BodyStep<S>& b = work_.bodies[k];
       b.qd = j.qd + sixth * j.accelerations;
-      // a held joint is where it was to be: at its stop
+      // a held joint is at its given place: at its stop
       b.q = j.q + select(b.terms.is_free > S(0), sixth * j.velocities, h * b.qd);
     }
     BaseState<S> end = start.moved_by(k1, sixth).moved_by(k2, S(2) * sixth).moved_by(k3, S(2) * sixth);
@@ -70,7 +70,7 @@ class RungeKutta {
   }
 
  private:
-  /// What contacts and wrenches from outside do to each body, at its origin, world axes.
+  /// Keeps the wrenches of contacts and of external wrenches on each body, at its origin, world axes.
   void keep_wrenches() {
     const V3<S> zero{S(0), S(0), S(0)};
     for (int k = 0; k < s_.count; ++k) work_.wrenches[k] = {zero, zero};
@@ -78,7 +78,7 @@ class RungeKutta {
       if (!work_.acts_on[k]) continue;
       const BodyStep<S>& b = work_.bodies[k];
       const Inertia<S>& m = work_.external[k];
-      // A B and B' C of contacts, which are no inertia but forces
+      // A B and B' C of contacts: these are forces, not inertia
       const V3<S> torque = m.n + m.A * b.alpha + V3<S>{dot(m.B.x, b.a), dot(m.B.y, b.a), dot(m.B.z, b.a)};
       const V3<S> force = m.f + m.B.x * b.alpha.x + m.B.y * b.alpha.y + m.B.z * b.alpha.z + m.C * b.a;
       work_.wrenches[k] = {b.axes * -force, b.axes * -torque};
@@ -87,7 +87,7 @@ class RungeKutta {
     }
   }
 
-  /// Adds the rates of the present stage with `weight`, and brings joints to the next one, `h` (s) from the start.
+  /// Adds the rates of the present stage with `weight`, and brings joints to the next stage, `h` (s) from the start.
   void stage(S h, S weight) {
     for (int k = 1; k < s_.count; ++k) {
       JointStage<S>& j = work_.stages[k];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Links of one robot that touch each other: where an arm comes to rest on its trunk, by geometry and by MuJoCo; momenta
-// of what flies; light arms; what is paid without `self_collision`.
+// Links of one robot that touch each other: the place where an arm comes to rest on its trunk, by geometry and by
+// MuJoCo; momenta in flight; light arms; the cost without `self_collision`.
 #include "articulated_testing.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/randoms.hpp"
@@ -8,8 +8,8 @@
 namespace muro::articulated::testing {
 namespace {
 
-/// A trunk of 0.3 m with arms at its sides, 0.15 m from it. The forearm, of `kilograms`, ends in a ball, 0.25 m from
-/// the elbow and with a radius of 0.03 m.
+/// Returns a trunk of 0.3 m with arms at its sides, 0.15 m from it. The forearm, of `kilograms`, ends in a ball, 0.25 m
+/// from the elbow and with a radius of 0.03 m.
 RobotTree robot_with_arms(double kilograms, bool both = false) {
   const Shape trunk = test::with(Shape::box({0.3, 0.3, 0.8}), 0.5), hand = test::with(Shape::sphere(0.03), 0.5);
   return test::tree_of([&](RobotBuilder& b) {
@@ -36,7 +36,7 @@ RobotTree robot_with_arms(double kilograms, bool both = false) {
     }
   });
 }
-const double touching = std::asin(0.12 / 0.25);  ///< rad: of the elbow, where the ball touches the trunk
+const double touching = std::asin(0.12 / 0.25);  ///< rad: angle of the elbow at which the ball touches the trunk
 
 Parameters with_self_collision(const std::string& base, double frequency = 50) {
   return {{"joints", std::string("position")}, {"base", base}, {"self_collision", true}, {"frequency", frequency}};
@@ -48,7 +48,7 @@ TEST(AnArm, ComesToRestOnTheTrunkWhereGeometryAndMujocoSay) {
     World w;
     const RobotView& r = w.add("r", robot_with_arms(1));
     Parameters p = with_self_collision("fixed");
-    p["velocity_joints"] = std::vector<std::string>{"right_shoulder"};  // which does not give way
+    p["velocity_joints"] = std::vector<std::string>{"right_shoulder"};  // this joint does not give way
     if (by_mujoco) {
       p.erase("frequency");
       w.use("motion.mujoco", 1000, w.all_robots(), p);
@@ -101,7 +101,8 @@ TEST(AnArm, RestsOnTheTrunkHoweverLightItIs) {
     }
 }
 
-/// A plate, and over it two links that turn about upright axes, as of a SCARA; the last lies 2 mm deep in the plate.
+/// Returns a plate, and over it two links that turn about upright axes, as in a SCARA. The last link lies 2 mm deep in
+/// the plate.
 RobotTree scara() {
   const Shape plate = test::with(Shape::box({0.8, 0.8, 0.1}), 0.5), arm = test::with(Shape::box({0.3, 0.1, 0.1}), 0.5);
   return test::tree_of([&](RobotBuilder& b) {
@@ -147,7 +148,7 @@ TEST(ALightForearm, RestsUnderAStrongDrive) {
   const auto contacts = w.world().values(r.base(), keys::contacts);
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_LT(contacts[0].depth, 0.02) << "m";
-  // about the elbow: the drive, the weight and the contact
+  // torques about the elbow: the drive, the weight and the contact
   const Wrench on_arm = w.world().value("r/right_forearm", keys::contact_wrench);
   const double weight = 0.1 * g * 0.125 * std::sin(w.q("r/right_elbow"));
   EXPECT_NEAR(on_arm.torque.y() + 2 - weight, 0, 0.01) << "N m";
@@ -207,7 +208,7 @@ TEST(AHumanoidInFlight, KeepsItsMomentaWhileItsLimbsHitEachOther) {
   RecordProperty("most", std::to_string(most) + " contacts, " + std::to_string(deepest) + " m");
 }
 
-/// A ball of 1 kg on two slides, along x and along z, beside a trunk that does not move.
+/// Returns a ball of 1 kg on two slides, along x and along z, beside a trunk that does not move.
 RobotTree pressed_ball() {
   const Shape trunk = test::with(Shape::box({0.3, 0.3, 4}), 0.5), ball = test::with(Shape::sphere(0.1), 0.5);
   return test::tree_of([&](RobotBuilder& b) {
@@ -226,7 +227,7 @@ RobotTree pressed_ball() {
 }
 
 TEST(FrictionBetweenLinks, HoldsAndSlidesAsCoulombSays) {
-  for (const double pressed : {1.1, 0.5}) {  // of what holds it
+  for (const double pressed : {1.1, 0.5}) {  // ratio to the force that is needed to hold it
     World w;
     w.add("r", pressed_ball());
     w.start({{"joints", std::string("passive")},

@@ -14,9 +14,10 @@ namespace {
 constexpr std::size_t some_contacts = 64;
 constexpr double most_phase = 0.6;
 
-/// The springs of `pairs` pairs of bodies, one along and one across the normal of each, move nothing faster than the
-/// root of 2 pairs omega^2. Semi-implicit Euler with the spring of the end of the step is stable as long as
-/// pairs (6 phase^2 + 8 phase) / softening < 4; here it is 3.2, so that one pair alone does not overshoot.
+/// Returns the divisor of the stiffness. The springs of `pairs` pairs of bodies, one along and one across the normal of
+/// each, move nothing faster than the root of 2 pairs omega^2. Semi-implicit Euler with the spring of the end of the
+/// step is stable as long as pairs (6 phase^2 + 8 phase) / softening < 4. Here it is 3.2, so that one pair alone does
+/// not overshoot.
 double softening_of(double phase, int pairs) { return std::max(1.0, 1.25 * pairs * (1.5 * phase + 2) * phase); }
 
 }  // namespace
@@ -82,7 +83,7 @@ void SelfContacts::find() {
   }
 }
 
-/// The points of two bodies share one spring. Returns how many pairs of bodies touch.
+/// Gives the points of two bodies shares of one spring. Returns the number of pairs of bodies that touch.
 int SelfContacts::count_shares() {
   int pairs = 0;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -104,7 +105,7 @@ void SelfContacts::keep_what_lasts() {
     kept.pair = contact_geometry::pair_of(place_of(c.self)->name, place_of(c.other)->name, c.self_shape, c.other_shape);
     const KeptSelfContact* const known =
         contact_geometry::previous(std::span<const KeptSelfContact>(before_), i, kept.pair, c.point);
-    kept.excess = -1;  // not known
+    kept.excess = -1;  // it is not known
     if (known) kept = *known;
     kept.point = c.point;
     kept_.push_back(kept);
@@ -123,8 +124,9 @@ void SelfContacts::update(const Law& law, double dt) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) push(i, law, dt, pairs);
 }
 
-/// A spring and a damper along the normal, critically damped, that only push; across it a spring with a slider beside a
-/// damper. Those of the end of the step, as far as velocities do not change.
+/// Finds the force of a contact: a critically damped spring and damper along the normal that only push; across it a
+/// spring with a slider beside a damper. Springs and dampers are those of the end of the step if velocities do not
+/// change.
 void SelfContacts::push(std::size_t i, const Law& law, double dt, int pairs) {
   SelfContact& to = contacts_[i];
   KeptSelfContact& kept = (*kept_)[i];
@@ -133,13 +135,13 @@ void SelfContacts::push(std::size_t i, const Law& law, double dt, int pairs) {
   const Vec3 velocity = own.twist->at(c.point - own.pose->position) - other.twist->at(c.point - other.pose->position);
   const Mat3 mobility = mobility_.between(to.body, to.other_body, c.point);
   const double along = c.normal.dot(mobility * c.normal), across = mobility.trace() - along;
-  constexpr double least_part = 1e-9;  // of a mobility: less is rounding, since no joint lets the links give way
+  constexpr double least_part = 1e-9;  // part of a mobility: less is rounding, since no joint lets the links give way
   if (!(along > least_part * mobility.trace())) {
     to.force = kept.displacement = Vec3::Zero();
     return;
   }
   const double speed = velocity.dot(c.normal);
-  const double phase = std::min(dt * std::sqrt(law.stiffness * along), most_phase);  // of what bobs on it in a step
+  const double phase = std::min(dt * std::sqrt(law.stiffness * along), most_phase);  // rad: phase gained in a step
   const double omega = phase / dt, damping_per_spring = 2 / omega + dt;
   const double softening = softening_of(phase, pairs);
   const auto spring_of = [&](double inverse_mass) {

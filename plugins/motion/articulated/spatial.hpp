@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Spatial algebra (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 2) over any scalar of muro/simd:
-// inertias in blocks, and how they turn about one axis of a frame. Indices are known to the compiler, so that all stays
-// in registers.
+// inertias in blocks, and their rotation about one axis of a frame. The compiler knows the indices, so that all values
+// stay in registers.
 #pragma once
 
 #include "plugins/common/lanes/turn.hpp"
@@ -11,7 +11,7 @@ inline namespace MURO_ISA {
 
 using lane::cross, lane::dot, lane::Turn, lane::turn_by, lane::V3;
 
-/// Axis I of three that follow each other in a circle.
+/// Returns component I of three that follow each other in a circle.
 template <int I, class T>
 MURO_INLINE T& pick(T& x, T& y, T& z) {
   if constexpr (I % 3 == 0)
@@ -40,7 +40,7 @@ template <int I, class M>
 MURO_INLINE auto& diagonal(M& m) {
   return pick<I>(m.xx, m.yy, m.zz);
 }
-/// The entry of the two other axes.
+/// Returns the entry of the two other axes.
 template <int I, class M>
 MURO_INLINE auto& opposite(M& m) {
   return pick<I>(m.yz, m.zx, m.xy);
@@ -57,7 +57,7 @@ MURO_INLINE auto& entry(M& m) {
 }
 
 /// A spatial inertia [A B; B' C]: moment = A alpha + B a, force = B' alpha + C a; and the wrench (moment n, force f)
-/// that acceleration needs beyond it.
+/// that is needed beyond that of acceleration.
 template <class S>
 struct Inertia {
   Sym<S> A;
@@ -76,7 +76,7 @@ struct Inertia {
 };
 static_assert(sizeof(Inertia<double>) == Inertia<double>::numbers * sizeof(double));
 
-/// From a frame into one that is turned about its axis K.
+/// Changes a vector from a frame into one that is turned about its axis K.
 template <int K, class S>
 MURO_INLINE V3<S> into(const Turn<S>& t, const V3<S>& v) {
   V3<S> o = v;
@@ -84,12 +84,12 @@ MURO_INLINE V3<S> into(const Turn<S>& t, const V3<S>& v) {
   at<K + 2>(o) = t.c * at<K + 2>(v) - t.s * at<K + 1>(v);
   return o;
 }
-/// Back out of it.
+/// Changes a vector back out of that frame.
 template <int K, class S>
 MURO_INLINE V3<S> out_of(const Turn<S>& t, const V3<S>& v) {
   return into<K>(Turn<S>{t.c, -t.s}, v);
 }
-/// R M R' for the rotation about axis K, with 10 products instead of 54.
+/// Returns R M R' for the rotation about axis K, with 10 products instead of 54.
 template <int K, class S>
 MURO_INLINE Sym<S> out_of(const Turn<S>& t, const Sym<S>& m) {
   constexpr int I = K + 1, J = K + 2;
@@ -125,7 +125,7 @@ MURO_INLINE Inertia<S> out_of(const Turn<S>& t, const Inertia<S>& m) {
   return {out_of<K>(t, m.A), out_of<K>(t, m.B), out_of<K>(t, m.C), out_of<K>(t, m.n), out_of<K>(t, m.f)};
 }
 
-/// From and into a frame by a constant rotation, by its columns.
+/// Changes out of and into a frame by a constant rotation, given by its columns.
 template <class S>
 MURO_INLINE V3<S> out_of(const lane::M3<S>& r, const V3<S>& v) {
   return r * v;
@@ -150,7 +150,8 @@ MURO_INLINE Inertia<S> out_of(const lane::M3<S>& r, const Inertia<S>& m) {
   return {out_of(r, m.A), out_of(r, m.B), out_of(r, m.C), out_of(r, m.n), out_of(r, m.f)};
 }
 
-/// About an origin at `r` from there: B' = B + r C, A' = A + r B^T - B' r, r for the matrix of its cross product.
+/// Moves the inertia to a new origin, from which the old one is at `r`: B' = B + r C, A' = A + r B^T - B' r, with r the
+/// matrix of its cross product.
 template <class S>
 MURO_INLINE void shift(Inertia<S>& m, const V3<S>& r) {
   const Rows<S> b = m.B;
@@ -176,7 +177,7 @@ MURO_INLINE Sym<S> inverse(const Sym<S>& s) {
   return {o.xx * d, o.yy * d, o.zz * d, o.yz * d, o.zx * d, o.xy * d};
 }
 
-/// alpha and a of [A B; B' C] (alpha, a) = (moment, force), by the Schur complement of C.
+/// Finds alpha and a of [A B; B' C] (alpha, a) = (moment, force), by the Schur complement of C.
 template <class S>
 MURO_INLINE void solve(const Inertia<S>& m, const V3<S>& moment, const V3<S>& force, V3<S>& alpha, V3<S>& a) {
   const Sym<S> i = inverse(m.C);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A step of robots of one structure: joints, contacts and bodies at once.
+// A step of robots of one structure: joints, contacts and bodies together.
 #include <optional>
 
 #include "contacts.hpp"
@@ -16,10 +16,10 @@ namespace {
 using namespace lane;
 using namespace lanes;
 
-/// m, m/s, rad/s: what diverges passes this on its way to infinity (plugins/motion/common/watch).
+/// m, m/s, rad/s: diverging values pass this on their way to infinity (plugins/motion/common/watch).
 constexpr double beyond = 1e12;
 
-/// Of the bases of robots.
+/// State of the bases of robots.
 template <class S>
 struct Bases {
   Places<S, double> pose_at, twist_at;
@@ -40,7 +40,7 @@ struct Bases {
     store_numbers(pose_at, 0, {p.x, p.y, p.z, q.x, q.y, q.z, q.w}, which);
     store_numbers(twist_at, 0, {v.x, v.y, v.z, w.x, w.y, w.z}, which);
   }
-  /// Into the body of the base.
+  /// Places the body of the base.
   MURO_INLINE void place(BodyStep<S>& base, bool is_fixed) const {
     base.axes = pose.orientation.matrix();
     base.origin = pose.position;
@@ -48,7 +48,7 @@ struct Bases {
     base.w = is_fixed ? zero : transposed_times(base.axes, twist.angular);
     base.v = is_fixed ? zero : transposed_times(base.axes, twist.linear);
   }
-  /// Whether a body can be there and move like that.
+  /// Whether the pose and the twist are possible.
   MURO_INLINE MaskOf<S> is_somewhere() const {
     const S far(beyond * beyond);
     const Q4<S>& q = pose.orientation;
@@ -56,8 +56,8 @@ struct Bases {
     const S speed = dot(twist.linear, twist.linear), rate = dot(twist.angular, twist.angular);
     return (place < far) & (speed < far) & (rate < far) & (norm > S(0.25)) & (norm < S(4));
   }
-  /// As it is half a step later, but for its position, if it goes on to change as in the last step: of those robots
-  /// that `which` says.
+  /// Returns the bases half a step later, but at the same position, for the robots `which`. Their velocities change as
+  /// in the last step.
   MURO_INLINE Bases in_the_middle(const Places<S, double>& accelerations, double dt, MaskOf<S> which) const {
     const S half(0.5 * dt);
     const TwistOf<S> before = load_twist(as_read(accelerations));
@@ -66,7 +66,7 @@ struct Bases {
                 {twist.linear + half * before.linear, twist.angular + half * before.angular}, which);
     return middle;
   }
-  /// How it has changed since `start`, in those robots that `smooth` says.
+  /// Keeps the change since `start`, for the robots `smooth`.
   MURO_INLINE void keep_change(const Bases& start, double dt, MaskOf<S> smooth, const Places<S, double>& kept,
                                unsigned which) const {
     const S per_second(1 / dt), zero(0);
@@ -79,7 +79,7 @@ struct Bases {
   }
   MURO_INLINE BaseState<S> state() const { return {pose.position, twist.linear, twist.angular, pose.orientation}; }
   MURO_INLINE void take(const BaseState<S>& b) { pose = {b.position, b.orientation}, twist = {b.velocity, b.spin}; }
-  /// In those robots that `which` says.
+  /// Takes pose and twist in the robots `which`.
   MURO_INLINE void take(const PoseOf<S>& p, const TwistOf<S>& t, MaskOf<S> which) {
     pose.position = select(which, p.position, pose.position);
     twist.linear = select(which, t.linear, twist.linear);
@@ -88,13 +88,13 @@ struct Bases {
     Q4<S>& q = pose.orientation;
     q = {select(which, a.x, q.x), select(which, a.y, q.y), select(which, a.z, q.z), select(which, a.w, q.w)};
   }
-  /// To where it would be had the change of its velocity from `before` come so much earlier (s). `fall`: m/s, of the
-  /// change what forces from outside have done.
+  /// Moves the base to its pose after a change of its velocity from `before` that came earlier by `time` (s). `fall`:
+  /// m/s, part of the change by forces from outside.
   MURO_INLINE void advance(S time, const TwistOf<S>& before, const V3<S>& fall) {
     pose.position += time * (twist.linear - before.linear - fall);
     pose.orientation = turned(rotation_by(time * (twist.angular - before.angular)), pose.orientation);
   }
-  /// With the mean of the velocities of both ends.
+  /// Moves the base with the mean of the velocities of both ends.
   MURO_INLINE void move(const BodyStep<S>& base, const V3<S>& gravity, double dt) {
     const S h(dt), half(0.5 * dt);
     const V3<S> acceleration = base.axes * (base.a + cross(base.w, base.v)) + gravity, turning = base.axes * base.alpha;
@@ -105,14 +105,14 @@ struct Bases {
   }
 };
 
-/// Bits of robots of which `test` is true.
+/// Returns the bits of robots for which `test` is true.
 template <class Test>
 MURO_INLINE unsigned robots_that(const RobotState* robots, int count, const Test& test) {
   unsigned bits = 0;
   for (int i = 0; i < count; ++i) bits |= test(robots[i]) ? 1u << i : 0u;
   return bits;
 }
-/// Where those kept of bases lie.
+/// Returns the places of the accelerations that are kept of bases.
 template <class S>
 MURO_INLINE Places<S, double> accelerations_of(const RobotState* robots, int count) {
   Places<S, double> places;
@@ -129,15 +129,16 @@ MURO_INLINE Masses<S> masses_of(const Batch& batch, const RobotState* robots, in
   return masses;
 }
 
-/// Whether a body turns so much in a step that it matters when its gyroscopic torque is taken.
+/// Whether a body turns so far in a step that the instant of its gyroscopic torque matters.
 template <class S>
 MURO_INLINE MaskOf<S> spins(const BodyStep<S>& body, double dt) {
   constexpr double least = 1e-4;  // rad
   return dot(body.w, body.w) > S(least * least / (dt * dt));
 }
 
-/// The pieces of the laws of joints and contacts are found by trial: mostly the first is right. Contacts are tried as
-/// pieces of their law, then as dampers, then as lesser ones, and at last without friction where nothing else fits.
+/// Stages of the trials that find the pieces of the laws of joints and contacts. Mostly the first piece is right.
+/// Contacts are tried as pieces of their law, then as dampers, then as weaker dampers, and at last without friction if
+/// nothing else fits.
 constexpr int most_pieces = 5, most_drags = 9, most_yields = 14, most_trials = 18;
 MURO_INLINE Search search_of(int trial) {
   return trial < most_pieces   ? Search::pieces
@@ -157,7 +158,7 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   Joints<S> joints(batch, robots, count, work);
   const Masses<S> masses = masses_of<S>(batch, robots, count);
 
-  // what nothing touches has its accelerations in the middle of the step
+  // a robot that nothing touches has its accelerations in the middle of the step
   const bool steps_smoothly = s.count > 1 && !batch.runge_kutta;
   const unsigned in_flight = robots_that(robots, count, [](const RobotState& r) { return r.contact_count == 0; });
   const unsigned pushed = robots_that(robots, count, [](const RobotState& r) { return r.is_pushed; });
@@ -167,10 +168,10 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   if (!s.fixed) start = base;
   base.place(bodies[0], s.fixed);
   MaskOf<S> flies = mask_of<S>(in_flight);
-  if (s.count == 1) flies = flies | spins(bodies[0], dt);  // on contacts as well
+  if (s.count == 1) flies = flies | spins(bodies[0], dt);  // also on contacts
   const bool some_fly = !s.fixed && !batch.runge_kutta && (bits(flies) & which) != 0;
   if (some_fly || !some_are_untouched) place_all(s, bodies);
-  std::optional<Momentum<S>> momentum;  // of one body, at the start
+  std::optional<Momentum<S>> momentum;  // momentum of one body, at the start
   std::optional<Flight<S>> flight;
   if (some_fly) flight.emplace(s, masses, work);
   if (some_are_untouched) {
@@ -231,7 +232,8 @@ unsigned step_some(const Batch& batch, const RobotState* robots, int count) {
   return bits(!(is_somewhere & is_finite)) & which;
 }
 
-/// As many as a register holds: so much is kept of each robot that wider packs would go through memory.
+/// Number of robots in a pack: as many as a register holds. Wider packs would go through memory, since much is kept of
+/// each robot.
 constexpr int most_lanes = vectors::register_bytes / int(sizeof(double));
 
 unsigned step(const Batch& batch, const RobotState* robots, int count) {

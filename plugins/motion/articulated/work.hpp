@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The memory of a step of one pack of robots.
+// Memory of a step of one pack of robots.
 #pragma once
 
 #include "batch.hpp"
@@ -10,75 +10,74 @@
 namespace muro::articulated::lanes {
 inline namespace MURO_ISA {
 
-/// One contact of each robot of a pack, on the same body; robots that lack one have a point that does not touch.
+/// Contacts of a pack on the same body, one of each robot. Robots that lack one have a point that does not touch.
 template <class S>
 struct ContactSlot {
   int body = 0;
   unsigned which = 0;                    ///< lanes that have a contact
-  unsigned resists_turning = 0;          ///< those of them whose surface does
-  bool has_cells = false;                ///< friction of some acts beside the point
-  bool spins = false;                    ///< of some, the ends of the cell move about where it acts
-  lane::Places<S, double> kept, wrench;  ///< of those lanes: what it keeps, and where to tell what it does
-  V3<S> velocity;                        ///< m/s: of the point against what it touches; see ContactPoint::turn
+  unsigned resists_turning = 0;          ///< lanes whose surface resists turning
+  bool has_cells = false;                ///< in some robot, friction acts beside the point
+  bool spins = false;                    ///< in some robot, the ends of the cell move about the place of friction
+  lane::Places<S, double> kept, wrench;  ///< places of those lanes: for the kept numbers, and for its wrench
+  V3<S> velocity;                        ///< m/s: velocity of the point against what it touches; see ContactPoint::turn
   ContactPoint<S> point;
   TurningPoint<S> turning;
   ContactStep<S> step;
-  V3<S> axis;                ///< the normal in the world, of those that have cells
-  V3<S> way;                 ///< m, world: of the point since the last step
+  V3<S> axis;                ///< normal in the world, if `has_cells`
+  V3<S> way;                 ///< m, world: way of the point since the last step
   V3<S> lever;               ///< m, world: from the body's origin to the point
-  bool bears_more = false;   ///< in some robot, than the robot weighs
-  S more;                    ///< so many times as much, at least 1
-  S mean_load;               ///< N: of the last steps
+  bool bears_more = false;   ///< in some robot, it bears more than the robot weighs
+  S more;                    ///< ratio of both, at least 1
+  S mean_load;               ///< N: mean load of the last steps
   S comes_in;                ///< 1: it is new, or an impact
-  S tried_load, found_load;  ///< N: of the trial before; -1: there is none
+  S tried_load, found_load;  ///< N: loads of the trial before; -1: there was none
   S rests;                   ///< 1: it is tried without a force, since it had none in the last step
 };
 
-/// What efforts at some joints do to a body, beside all else, while the bodies that its parents come from do not
-/// accelerate.
+/// Response of a body to efforts at some joints alone, while the anchor does not accelerate.
 template <class S>
 struct Response {
   V3<S> n, f;      ///< wrench that it hands on
-  S effort, bias;  ///< N m or N: of its joint; what that lacks when it does not accelerate
+  S effort, bias;  ///< N m or N: effort of its joint, and the effort that it lacks if it does not accelerate
 };
-/// The effort that makes a joint follow its leader: start + per_alpha alpha + per_a a, with the acceleration of the
-/// anchor of its group.
+/// Effort that makes a joint follow its leader: start + per_alpha alpha + per_a a, with the acceleration of the anchor
+/// of its group.
 template <class S>
 struct Following {
   S start;
   V3<S> per_alpha, per_a;
 };
 
-/// rate of the body's joint by that of its leader's.
+/// Returns the rate of the body's joint per rate of its leader.
 template <class S>
 MURO_INLINE S factor_of(const Structure& s, int k) {
   const Joint& j = s.joints[k];
   return S(j.multiplier * s.bodies[k].sign * s.bodies[j.leader].sign);
 }
 
-/// A joint at the start of a step, and over it.
+/// A joint at the start of a step, and its motion in the step.
 template <class S>
 struct JointStage {
-  S q, qd;                      ///< at the start
-  S velocities, accelerations;  ///< means; weighted sums in a step of several stages
+  S q, qd;                      ///< values at the start
+  S velocities, accelerations;  ///< means; in a step of several stages, weighted sums
 };
 
-/// What is kept of an acceleration for the next step, which takes it for that of its first half; `before`: the same of
-/// the step before. It leads by a third of a step, which takes away most of the energy that an extrapolation adds: a
-/// mode that turns by x rad in a step grows by x^4 / 18 instead of x^4 / 4.
+/// Returns the acceleration that is kept for the next step, which uses it in its first half; `before`: the one that was
+/// kept in the step before. It leads by a third of a step, which takes away most of the energy that an extrapolation
+/// adds: a mode that turns by x rad in a step grows by x^4 / 18 instead of x^4 / 4.
 template <class S, class T>
 MURO_INLINE T trend(const T& now, const T& before) {
   return S(1.5) * now - S(0.5) * before;
 }
 
-/// The same at the end.
+/// A joint at the end of a step.
 template <class S>
 struct JointEnd {
   S q, qd;
 };
 
-/// Stores zeros without their signs: those would tell of other robots of the pack, since what only they have is added
-/// to all, as zeros.
+/// Stores numbers. Zeros have no sign: a sign would depend on other robots of the pack, since the terms that only they
+/// have are added to all, as zeros.
 template <class S, int n>
 MURO_INLINE void store_numbers(const lane::Places<S, double>& to, std::ptrdiff_t first, const S (&from)[n],
                                unsigned which) {
@@ -87,30 +86,30 @@ MURO_INLINE void store_numbers(const lane::Places<S, double>& to, std::ptrdiff_t
   lane::store_rows(to, first, sums, which);
 }
 
-/// Pieces of the memory that a batch brings.
+/// Arrays in the memory that a batch brings.
 template <class S>
 struct Work {
   BodyStep<S>* bodies;
   OwnLaw<S>* laws;
   JointPiece<S>* pieces;
-  S* changes;  ///< of the pieces of joints in this step, one a body
+  S* changes;  ///< changes of the pieces of joints in this step, one per body
   Inertia<S>* slots;
-  Inertia<S>* external;        ///< of bodies that `acts_on` says
-  Inertia<S>* kept;            ///< what bodies hand on, see Body::kept
-  bool* changed;               ///< one a body: after a trial, whether it is tried otherwise in the next
-  Folding* folding;            ///< one a body
-  const Inertia<S>** acts_on;  ///< one a body: where its external is, or null
-  V3<S>* drifts;               ///< m/s^2: of bodies with contacts, cross(w, v) and gravity, in their frames
-  Response<S>* responses;      ///< one a body
-  Following<S>* followings;    ///< one a body
-  S* innovations;              ///< of mimic joints of a group, one for each of its bodies, and one row more
-  Composite<S>* composites;    ///< as `slots`
-  JointStage<S>* stages;       ///< one a body
-  JointEnd<S>* ends;           ///< the same
-  lane::TwistOf<S>* wrenches;  ///< force and torque, one a body
+  Inertia<S>* external;        ///< terms on the bodies that have `acts_on`
+  Inertia<S>* kept;            ///< inertias that bodies hand on, see Body::kept
+  bool* changed;               ///< one per body: whether the next trial differs from the last one
+  Folding* folding;            ///< one per body
+  const Inertia<S>** acts_on;  ///< one per body: its place in `external`, or null
+  V3<S>* drifts;               ///< m/s^2: for bodies with contacts, cross(w, v) and gravity, in their frames
+  Response<S>* responses;      ///< one per body
+  Following<S>* followings;    ///< one per body
+  S* innovations;              ///< for mimic joints of a group, one per body of it, and one row more
+  Composite<S>* composites;    ///< as many as `slots`
+  JointStage<S>* stages;       ///< one per body
+  JointEnd<S>* ends;           ///< one per body
+  lane::TwistOf<S>* wrenches;  ///< force and torque, one per body
   ContactSlot<S>* contacts;
   int contact_count = 0;
-  Inertia<S> base;  ///< of all bodies, at the base
+  Inertia<S> base;  ///< inertia of all bodies, at the base
 
   MURO_INLINE Work(void* memory, const Structure& s) {
     const int body_count = s.count, slot_count = s.slots;

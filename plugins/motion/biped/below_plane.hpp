@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Links other than feet that are below the plane: the motion does not keep them from it, but says so.
+// Links other than feet that are below the plane. The motion does not keep them above it, but reports them.
 #pragma once
 
 #include <atomic>
@@ -13,11 +13,11 @@
 
 namespace muro::biped {
 
-/// Of one robot: the boxes around the collision shapes of its links but those of its feet and meshes.
+/// Boxes around the collision shapes of the links of one robot, without those of feet and without meshes.
 class LinksBelowPlane {
  public:
   LinksBelowPlane() = default;
-  /// After the joints of the robot have got their properties. `is_left_out`: of every link. [setup]
+  /// Connects the links after the joints of the robot have got their properties. `is_left_out`: one per link. [setup]
   LinksBelowPlane(Connector& c, const RobotView& robot, const std::vector<bool>& is_left_out) : robot_(&robot) {
     for (std::uint32_t i = 0; i < robot.links.size(); ++i) {
       const Link& link = robot.links[i];
@@ -31,8 +31,8 @@ class LinksBelowPlane {
     }
   }
 
-  /// Tells the first one that is deeper than 1 mm, once for all robots that share `is_told`. `base`: of the robot.
-  /// [step]
+  /// Reports the first link that is deeper than 1 mm, once for all robots that share the flag. `base`: pose of the base
+  /// of the robot. [step]
   void tell(Host& host, const GroundPlane& plane, const Pose& base, std::atomic<bool>& is_told) {
     if (is_told.load(std::memory_order_relaxed)) return;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -55,13 +55,13 @@ class LinksBelowPlane {
  private:
   static constexpr double least_depth = 1e-3;  ///< m
   struct Part {
-    Out<double> position;  ///< of the joint that leads to it
+    Out<double> position;  ///< position of the joint that leads to it
     std::vector<Shape> shapes;
     std::string_view name;
-    Pose pose;  ///< scratch
+    Pose pose;  ///< used within a step
   };
 
-  /// m: of a shape at `pose` above the plane; of the box around it.
+  /// Returns the height (m) of the lowest point of a shape at `pose` above the plane; of the box around the shape.
   static double lowest(const Shape& shape, const Pose& pose, const GroundPlane& plane) {
     if (shape.kind == ShapeKind::sphere) return plane.height(pose.position) - shape.size.x();
     const Vec3 along = (pose.orientation.conjugate() * plane.normal).cwiseAbs();
@@ -69,7 +69,7 @@ class LinksBelowPlane {
   }
 
   const RobotView* robot_ = nullptr;
-  std::vector<Part> parts_;  ///< one a link
+  std::vector<Part> parts_;  ///< one per link
 };
 
 }  // namespace muro::biped

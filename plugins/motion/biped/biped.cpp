@@ -67,20 +67,20 @@ constexpr Description description{
                 feature_joint_speed_limits | feature_mimic_joints,
 };
 
-/// A joint of a leg, and what is kept of it within a step.
+/// Properties of a joint of a leg.
 struct JointPlace {
   Out<double> position, velocity;
 };
 
-/// What is kept of a robot.
+/// Properties and parts of a robot.
 struct BipedRobot {
   Out<Pose> pose;
-  Out<Twist> twist, acceleration;  ///< acceleration: where somebody reads it
+  Out<Twist> twist, acceleration;  ///< acceleration: used if somebody reads it
   Out<Pose> stance_pose, base_pose;
   Out<std::uint32_t> stance_foot, is_flush;
   Out<std::uint64_t> footholds;
   std::array<Out<std::uint32_t>, 2> contact;
-  std::uint32_t model = 0;  ///< in Biped::models_
+  std::uint32_t model = 0;  ///< index in Biped::models_
   Range legs;               ///< joints of both legs
   KinematicJoints joints;
   LinkStop stop;
@@ -94,7 +94,7 @@ bool is_same(const Pose& a, const Pose& b) {
 
 class Biped final : public Motion<PerRobotAlgorithm<BipedRobot>> {
  public:
-  /// Another motion has left the robot anywhere: it is put on its feet.
+  /// Puts the robot on its feet after another motion has left it anywhere.
   void on_handover(std::uint32_t item) override {
     const BipedRobot& r = robot(item);
     r.joints.take_over();
@@ -175,7 +175,7 @@ class Biped final : public Motion<PerRobotAlgorithm<BipedRobot>> {
   }
 
   std::uint32_t model_index(Feet feet) {
-    const auto known = std::find(models_.rbegin(), models_.rend(), feet);  // mostly the last one
+    const auto known = std::find(models_.rbegin(), models_.rend(), feet);  // mostly it is the last one
     if (known != models_.rend()) return std::uint32_t(models_.rend() - known) - 1;
     models_.push_back(std::move(feet));
     return std::uint32_t(models_.size() - 1);
@@ -201,12 +201,12 @@ class Biped final : public Motion<PerRobotAlgorithm<BipedRobot>> {
     *r.footholds = s.footholds;
   }
 
-  /// m, of the sole of the swing foot.
+  /// Returns the height of the sole of the swing foot (m).
   double swing_height(const Feet& feet, const Stance& s, const FootPoses& at) const {
     return Footing(feet, plane_, hysteresis_).height(1 - s.foot, s.pose * at.other(s.foot));
   }
 
-  /// Where the base is when the stance foot, `foot` in the frame of the base, is where it stands.
+  /// Returns the pose of the base when the stance foot, at `foot` in the frame of the base, is at its stance pose.
   static Pose base_at(const Stance& s, const Pose& foot) {
     Pose base = s.pose * foot.inverse();
     base.orientation.normalize();
@@ -227,7 +227,7 @@ class Biped final : public Motion<PerRobotAlgorithm<BipedRobot>> {
     return feet;
   }
 
-  /// Puts the robot on its feet with its joints as they are, from where its base is.
+  /// Puts the robot on its feet near the pose of its base, and keeps its joints as they are.
   void stand_up(const BipedRobot& r) const {
     Stance stance = stance_of(r);
     const FootPoses feet = feet_of(r, stance.foot, motion_of(r, stance.foot));
@@ -271,8 +271,8 @@ class Biped final : public Motion<PerRobotAlgorithm<BipedRobot>> {
     *r.contact[1 - stance.foot] = swing_height <= contact_height_ ? 1 : 0;
   }
 
-  /// The derivative of the twist while the foot stands, from the joints' accelerations; a change of the stance foot is
-  /// not in it.
+  /// Returns the derivative of the twist while the foot stands, by the accelerations of the joints. It does not contain
+  /// a change of the stance foot.
   Twist acceleration_of(const BipedRobot& r, double dt) const {
     const std::span<const JointPlace> joints = joints_[r.legs];
     const double* const before = rates_.data() + r.legs.begin;
@@ -288,11 +288,11 @@ class Biped final : public Motion<PerRobotAlgorithm<BipedRobot>> {
   }
 
   Host* host_ = nullptr;
-  std::atomic<bool> is_told_ = false;  ///< that a link other than a foot is below the plane
+  std::atomic<bool> is_told_ = false;  ///< a link other than a foot below the plane was reported
   GroundPlane plane_;
   std::vector<Feet> models_;
   PackedLists<JointPlace> joints_;
-  std::vector<double> from_, to_, rates_;  ///< of these joints, in a step: positions at its begin and end; velocities
+  std::vector<double> from_, to_, rates_;  ///< of these joints in a step: positions at its begin and end; velocities
   double hysteresis_ = 0, contact_height_ = 0, interpolation_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace muro::biped {
 
 namespace {
 
-/// Links and the rigid bodies that they are part of, all joints at 0.
+/// Links and the rigid bodies that they are part of, with all joints at 0.
 class Structure {
  public:
   Structure(const Connector& c, const RobotView& robot) : connector_(c), robot_(robot) {
@@ -30,7 +30,7 @@ class Structure {
     }
   }
 
-  /// The link that the rigid body of link `i` begins with: a joint leads to it, or it is the base.
+  /// Returns the first link of the rigid body of link `i`: a joint leads to it, or it is the base.
   std::uint32_t body(std::uint32_t i) const { return body_[i]; }
   const Pose& in_body(std::uint32_t i) const { return in_body_[i]; }
   const Pose& in_base(std::uint32_t i) const { return in_base_[i]; }
@@ -50,7 +50,7 @@ class Structure {
                 "; links that carry no other: " + quoted_list(leaves()));
   }
 
-  /// Whether a joint or more lie between the base and `from`, and between `from` and `to`.
+  /// Whether one or more joints lie between the base and `from`, and between `from` and `to`.
   bool is_before(std::uint32_t from, std::uint32_t to) const {
     const std::uint32_t wanted = body(from);
     for (std::uint32_t at = body(to); at != wanted; at = body(std::uint32_t(robot_.links[at].parent)))
@@ -75,7 +75,7 @@ class Structure {
   std::vector<std::uint32_t> body_;
 };
 
-/// Throws for two links that cannot be feet of one robot.
+/// Throws Error for two links that cannot be feet of one robot.
 void check_feet(const Structure& s, const RobotView& robot, const std::array<std::uint32_t, 2>& links,
                 std::span<const std::string_view> names) {
   if (links[0] == links[1])

@@ -11,9 +11,9 @@ namespace muro::biped {
 
 namespace {
 
-constexpr double least_upward = 0.1;  ///< z of the normal of a plane that may be the ground without being named
+constexpr double least_upward = 0.1;  ///< least z of the normal of a plane that may be the ground without being named
 
-/// What of the scenery could be the ground.
+/// Parts of the scenery that could be the ground.
 struct Grounds {
   std::vector<GroundPlane> planes;
   bool has_heightmaps = false;
@@ -55,7 +55,7 @@ GroundPlane find_ground_plane(const Connector& c, std::string_view name) {
           "a biped puts its feet on a plane, and the scenery has a heightmap; take a motion by forces there, or name "
           "with `plane` the object whose plane it walks on whatever the heightmap does (" +
           names_of(c, found.planes) + ")");
-    std::vector<GroundPlane> grounds = found.planes;  // walls are none
+    std::vector<GroundPlane> grounds = found.planes;  // without walls
     std::erase_if(grounds, [](const GroundPlane& p) { return p.normal.z() < least_upward; });
     if (grounds.size() == 1) return grounds.front();
     if (grounds.empty())

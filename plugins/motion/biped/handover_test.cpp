@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots that come from elsewhere: from the start, from other motions, put somewhere, out of snapshots.
+// Robots at a new pose: at the start, from other motions, put somewhere, from snapshots.
 #include <gtest/gtest.h>
 
 #include "walker_testing.hpp"
@@ -77,7 +77,7 @@ TEST(ABipedThatIsPutAnywhere, WalksOnFromThere) {
   EXPECT_LT(b.base().orientation.angularDistance(expected.orientation), 1e-9);
 }
 
-/// A walker with two motions, which goes over to the second one and back.
+/// A walker with two motions, which changes to the second one and back.
 struct TwoLevels : test::Scene {
   const RobotView& robot;
   explicit TwoLevels(const std::string& other)

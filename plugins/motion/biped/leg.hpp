@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The chain of joints from the base of a robot to one of its feet.
+// Chain of joints from the base of a robot to one of its feet.
 #pragma once
 
 #include <vector>
@@ -10,15 +10,15 @@
 
 namespace muro::biped {
 
-/// A joint of a leg, in the frame behind the joint before it; fixed links in between are folded in.
+/// A joint of a leg, in the frame behind the joint before it. Fixed links in between are part of `origin`.
 struct LegJoint {
-  Pose origin;                ///< of the frame in front of the joint
+  Pose origin;                ///< pose of the frame in front of the joint
   Vec3 axis = Vec3::UnitX();  ///< unit, in that frame
   JointKind kind = JointKind::revolute;
   bool is_turned = false;    ///< the orientation of `origin` is not the identity
-  bool is_shifted = false;   ///< its position is not zero
+  bool is_shifted = false;   ///< the position of `origin` is not zero
   int axis_number = 0;       ///< 1, 2, 3: `axis` is x, y, z; 0: any
-  std::uint32_t number = 0;  ///< among the joints of both legs
+  std::uint32_t number = 0;  ///< number among the joints of both legs
 
   bool operator==(const LegJoint& b) const {
     return origin.position == b.origin.position && origin.orientation.coeffs() == b.origin.orientation.coeffs() &&
@@ -26,24 +26,24 @@ struct LegJoint {
   }
 };
 
-/// A foot as seen from the base, and what the joints' velocities make of the base when the foot is held: -J q', with J
+/// Pose of a foot in the frame of the base, and velocity of the base by the joints when the foot is held: -J q', with J
 /// the Jacobian of the foot at the origin of the base.
 struct FootMotion {
-  Pose foot;                    ///< in the frame of the base
-  Vec3 linear = Vec3::Zero();   ///< m/s, of the base, in its axes
+  Pose foot;                    ///< pose in the frame of the base
+  Vec3 linear = Vec3::Zero();   ///< m/s: velocity of the base, in its axes
   Vec3 angular = Vec3::Zero();  ///< rad/s
 };
 
 struct Leg {
   std::vector<LegJoint> joints;
-  Pose end;  ///< of the link of the foot, in the frame behind the last joint
+  Pose end;  ///< pose of the link of the foot, in the frame behind the last joint
 
   bool operator==(const Leg& b) const {
     return joints == b.joints && end.position == b.end.position &&
            end.orientation.coeffs() == b.end.orientation.coeffs();
   }
 
-  /// The foot in the frame of the base. `position(i)`: of joint `i` of both legs, rad or m.
+  /// Returns the foot in the frame of the base. `position(i)`: position of joint `i` of both legs, rad or m.
   template <class Position>
   Pose foot(const Position& position) const {
     Pose at;
@@ -51,7 +51,7 @@ struct Leg {
     return is_at_end() ? at : at * end;
   }
 
-  /// `velocity(i)`: of the joint, rad/s or m/s.
+  /// Returns the motion of the foot and the base. `velocity(i)`: velocity of joint `i`, rad/s or m/s.
   template <class Position, class Velocity>
   FootMotion motion(const Position& position, const Velocity& velocity) const {
     FootMotion m;
@@ -70,7 +70,7 @@ struct Leg {
     return m;
   }
 
-  /// How the foot would move if the base stood still, in its frame. `acceleration(i)`: of the joint, rad/s^2 or m/s^2.
+  /// Returns the motion of the foot in the frame of the base. `acceleration(i)`: of joint `i`, rad/s^2 or m/s^2.
   template <class Position, class Velocity, class Acceleration>
   link_motion::FrameMotion relative(const Position& position, const Velocity& velocity,
                                     const Acceleration& acceleration) const {
@@ -92,7 +92,7 @@ struct Leg {
       at.position += turned(at.orientation, j.axis * q);
   }
 
-  /// `orientation` * rotation_about(axis, q), with the products by 0 left out where the axis is one of the frame.
+  /// Turns `orientation` by rotation_about(axis, q), without the products by 0 if the axis is one of the frame.
   static void turn(const LegJoint& j, double q, Quat& orientation) {
     const auto [s, c] = elementary::sincos(0.5 * q);
     const double x = orientation.x(), y = orientation.y(), z = orientation.z(), w = orientation.w();
@@ -111,7 +111,7 @@ struct Leg {
     }
   }
 
-  /// q * v: a function of Eigen's that compilers do not take into this loop.
+  /// Returns q * v. Compilers do not inline the function of Eigen into this loop.
   static Vec3 turned(const Quat& q, const Vec3& v) {
     const double x = q.x(), y = q.y(), z = q.z(), w = q.w();
     const double tx = 2 * (y * v.z() - z * v.y()), ty = 2 * (z * v.x() - x * v.z()), tz = 2 * (x * v.y() - y * v.x());

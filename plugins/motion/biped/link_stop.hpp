@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `on_contact: stop` for a robot whose links move one against the other.
+// `on_contact: stop` for a robot whose links move against each other.
 #pragma once
 
 #include <algorithm>
@@ -10,11 +10,12 @@
 
 namespace muro::biped {
 
-/// As ContactStop, by the velocity of the link that touches.
+/// Variant of ContactStop that uses the velocity of the link that touches.
 class LinkStop {
  public:
   LinkStop() = default;
-  /// After the joints of the robot have got their properties. `ground`: what it walks on. [setup]
+  /// Connects the links after the joints of the robot have got their properties. `ground`: the shape on which it walks.
+  /// [setup]
   LinkStop(Connector& c, const RobotView& robot, const ShapeOfObject& ground) : robot_(&robot), ground_(ground) {
     if (c.parameters().text(on_contact.name) != "stop") return;
     contacts_ = c.read_list(robot.base(), keys::contacts);
@@ -26,16 +27,16 @@ class LinkStop {
     }
   }
 
-  /// Whether it may be kept from moving at all.
+  /// Whether it may stop the robot at all.
   explicit operator bool() const { return bool(contacts_); }
 
-  /// Keeps where the joints are. [step]
+  /// Keeps the positions of the joints. [step]
   void begin_step() {
     for (Joint& j : joints_)
       if (j.position) j.before = *j.position;
   }
-  /// Whether a link would move on against what it touches: with the base at `base` and `twist`, and joints as they are
-  /// now. [step]
+  /// Whether a link would move on against a body that it touches. The base is at `base` with `twist`, and the joints
+  /// have their present state. [step]
   bool blocks(const Pose& base, const Twist& twist) const {
     for (const Contact& c : *contacts_) {
       if (c.other == ground_.object && c.other_shape == ground_.shape) continue;
@@ -48,7 +49,7 @@ class LinkStop {
     }
     return false;
   }
-  /// The joints are where they were, and stand. [step]
+  /// Puts the joints back where they were, at rest. [step]
   void take_back() const {
     for (const Joint& j : joints_)
       if (j.position) *j.position = j.before, *j.velocity = 0;
@@ -61,7 +62,8 @@ class LinkStop {
     double before = 0;
   };
 
-  /// Adds what the joints on the way to link `i` do to its point (m, in the world); returns the pose of the link.
+  /// Adds the velocity that the joints on the way to link `i` give to its point (m, world). Returns the pose of the
+  /// link.
   Pose add_velocity(std::size_t i, const Pose& base, const Vec3& point, Vec3& velocity) const {
     if (i == 0) return base;
     const Link& link = robot_->links[i];
@@ -77,7 +79,7 @@ class LinkStop {
   const RobotView* robot_ = nullptr;
   ShapeOfObject ground_;
   ListIn<Contact> contacts_;
-  std::vector<Joint> joints_;  ///< one a link
+  std::vector<Joint> joints_;  ///< one per link
 };
 
 }  // namespace muro::biped

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a biped does to others, and what its sensors feel.
+// Effects of a biped on others, and readings of its sensors.
 #include <gtest/gtest.h>
 
 #include "walker_testing.hpp"
@@ -75,9 +75,9 @@ TEST(ABiped, FeelsTheAccelerationOfItsArcAndNoSpikeAtAStep) {
     s.run_for(dt);
     if (k < 3) continue;
     jump = std::max(jump, (s.twist(r).linear - before.linear).norm());
-    const Vec3 f = s.world().value(imu, keys::linear_acceleration);  // of the step before
+    const Vec3 f = s.world().value(imu, keys::linear_acceleration);  // value of the step before
     const double turned = (k - 1) % 400;
-    if (turned < 2 || turned > 398) {  // the hips turn back: theirs is an acceleration of 2 rad/s within a step
+    if (turned < 2 || turned > 398) {  // the hips turn back: their velocity changes by 2 rad/s within a step
       continue;
     }
     largest = std::max(largest, (f - Vec3(0, 0, g)).norm());
@@ -87,7 +87,7 @@ TEST(ABiped, FeelsTheAccelerationOfItsArcAndNoSpikeAtAStep) {
 }
 
 TEST(ABiped, FeelsASmoothAccelerationRightThroughItsSteps) {
-  // The legs swing by sines while feet come down: dv/dt would be hundreds of m/s^2 there.
+  // The legs swing as sines while feet come down: dv/dt would be hundreds of m/s^2 there.
   const double a = 0.35, lift = 0.03, omega = 2 * M_PI / 0.8, dt = 0.001;
   test::Scene s;
   s.add_ground();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a user reads who has named wrong feet or has no plane, and what sensors say that need forces.
+// Messages to a user who has named wrong feet or has no plane, and values of sensors that need forces.
 #include <gtest/gtest.h>
 
 #include "tests/support/complaint.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Trees with two legs of any kind, with joints that move anyhow: what holds for all of them.
+// Properties that hold for all trees with two legs of any kind and any motion of the joints.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -33,10 +33,10 @@ Shape any_sole(Draw& draw) {
 struct AnyTree {
   RobotTree tree;
   std::vector<std::string> joints;
-  std::map<std::string, std::vector<Shape>> soles;  ///< of each foot
+  std::map<std::string, std::vector<Shape>> soles;  ///< soles of each foot
 };
 
-/// Two legs of one to seven joints about and along any axes behind up to two joints that both legs share.
+/// Returns two legs of one to seven joints about and along any axes, behind up to two joints that both legs share.
 AnyTree any_tree(Draw& draw) {
   AnyTree any;
   any.tree = test::tree_of([&](RobotBuilder& b) {
@@ -68,7 +68,7 @@ AnyTree any_tree(Draw& draw) {
   return any;
 }
 
-/// m: of a shape above the plane n . x = offset, in closed form.
+/// Returns the height of a shape above the plane n . x = offset (m), in closed form.
 double height_of(const Shape& s, const Pose& link, const Vec3& n, double offset) {
   const Pose at = link * s.origin;
   const Vec3 axes = (at.orientation.conjugate() * n).cwiseAbs();
@@ -91,7 +91,7 @@ struct RandomWalk : test::Scene {
   Pose plane;
   AnyTree any;
   const RobotView* robot;
-  std::vector<Vec3> swings;  ///< of each joint: amplitude, rad/s, phase
+  std::vector<Vec3> swings;  ///< per joint: amplitude, rad/s, phase
 
   explicit RandomWalk(unsigned seed, double rate = 100)
       : draw(seed), plane{draw.vector(2), draw.turn(0.7)}, any(any_tree(draw)) {
@@ -117,7 +117,7 @@ struct RandomWalk : test::Scene {
   }
 };
 
-/// Holds the trees of these seeds to what the README promises; counts how often a foot was put down.
+/// Checks that the trees of these seeds do what the README promises. Counts how often a foot was put down.
 void hold(unsigned first, unsigned last, double rate, std::uint64_t& footholds) {
   for (unsigned seed = first; seed <= last; ++seed) {
     RandomWalk w(seed, rate);
@@ -178,7 +178,7 @@ TEST(AnyTwoLeggedTree, MovesWithTheDerivativeOfItsPose) {
       const Vec3 angular =
           rotation_vector_of(to.orientation * from.orientation.conjugate()) / dt - 0.5 * (slow.angular + fast.angular);
       const double speed = fast.linear.norm() + fast.angular.norm();
-      // The joints change their velocities from step to step, so that the trapezoidal rule is of first order.
+      // The joints change their velocities from step to step, so the trapezoidal rule is of first order.
       ASSERT_LT(linear.norm() + angular.norm(), 20 * dt * (1 + speed)) << "seed " << seed << " step " << k;
       ++compared;
     }

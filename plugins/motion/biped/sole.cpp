@@ -12,7 +12,7 @@ namespace {
 constexpr double same_place = 1e-9;  ///< m
 constexpr int corners_of_rim = 16;
 
-/// Corners that stand for the points where it is asked on which side they stand: a ball for its lowest point.
+/// Returns corners that represent the points in the search for the side: a ball is represented by its lowest point.
 std::vector<Vec3> corners_of(const std::vector<SolePoint>& points, const Vec3& down) {
   std::vector<Vec3> corners;
   for (const SolePoint& p : points) {
@@ -30,7 +30,8 @@ std::vector<Vec3> corners_of(const std::vector<SolePoint>& points, const Vec3& d
   return corners;
 }
 
-/// Which of `corners` a plane touches next that turns about what it touches, by which angle (rad).
+/// The corner that a plane touches next when it turns about the corners that it touches, and the angle of that turn
+/// (rad).
 struct Touch {
   double angle = std::numeric_limits<double>::infinity();
   Vec3 corner = Vec3::Zero();
@@ -43,7 +44,7 @@ Sole::Sole(std::vector<SolePoint> points, const Vec3& down) : points_(std::move(
   Vec3 first = corners.front();
   for (const Vec3& p : corners)
     if (p.dot(down) > first.dot(down)) first = p;
-  // about the first corner to a second one
+  // turn about the first corner to a second one
   Touch second;
   for (const Vec3& p : corners) {
     const Vec3 arm = p - first, level = arm - arm.dot(down) * down;
@@ -54,14 +55,14 @@ Sole::Sole(std::vector<SolePoint> points, const Vec3& down) : points_(std::move(
   if (!(second.angle < std::numeric_limits<double>::infinity())) return;
   edge_ = (second.corner - first).normalized();
   const Vec3 tipped = down - down.dot(edge_) * edge_;
-  if (tipped.norm() < same_place) {  // a sole that is a line along `down`
+  if (tipped.norm() < same_place) {  // the sole is a line along `down`
     side_ = Side::edge;
     normal_ = edge_.unitOrthogonal();
     return;
   }
   normal_ = tipped.normalized();
   side_ = Side::edge;
-  // about this edge to a third one, to either side
+  // turn about this edge to a third one, to either side
   const Vec3 across = edge_.cross(normal_);
   Touch third;
   for (const Vec3& p : corners) {

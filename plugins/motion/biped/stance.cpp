@@ -5,10 +5,10 @@ namespace muro::biped {
 
 namespace {
 
-constexpr int most_changes = 8;     ///< of the stance foot in a step
-constexpr double accuracy = 1e-13;  ///< m, of the height at which the sole is found to touch
+constexpr int most_changes = 8;     ///< largest number of changes of the stance foot in a step
+constexpr double accuracy = 1e-13;  ///< m: accuracy of the height at which the sole touches
 constexpr int most_iterations = 80;
-constexpr double least_interval = 1e-15;  ///< of a step
+constexpr double least_interval = 1e-15;  ///< part of a step
 
 }  // namespace
 
@@ -21,13 +21,13 @@ double Footing::height(std::uint32_t i, const Pose& foot) const {
   return feet_.soles[i].lowest(foot.orientation.conjugate() * plane_.normal) + plane_.height(foot.position);
 }
 
-/// `foot`, shifted along the normal until its lowest point touches.
+/// Returns `foot` shifted along the normal until its lowest point touches.
 Pose Footing::touching(std::uint32_t i, Pose foot) const {
   foot.position -= height(i, foot) * plane_.normal;
   return foot;
 }
 
-/// `foot`, turned about its lowest point by the smallest turn that lays the sole on the plane.
+/// Returns `foot` turned about its lowest point by the smallest turn that lays the sole on the plane.
 Pose Footing::flush(std::uint32_t i, const Pose& foot) const {
   const Sole& sole = feet_.soles[i];
   const Vec3 pivot = foot * sole.lowest_point(foot.orientation.conjugate() * plane_.normal);
@@ -51,7 +51,7 @@ void Footing::put_down(std::uint32_t i, Pose foot, const FootPoses& feet, Stance
   ++stance.footholds;
 }
 
-/// A stance foot that stands tilted lies down where the other foot lets it.
+/// Lays a tilted stance foot flat, if the other foot leaves room.
 void Footing::lie_down_flat(const FootPoses& feet, Stance& stance) const {
   const Pose flat = flush(stance.foot, stance.pose);
   if (!leaves_room(stance.foot, flat, feet.other(stance.foot))) return;
@@ -60,8 +60,9 @@ void Footing::lie_down_flat(const FootPoses& feet, Stance& stance) const {
   ++stance.footholds;
 }
 
-/// The part of the step at which the sole of the swing foot touches the plane: the rule of false position with halved
-/// ordinates (the Illinois algorithm; Dowell and Jarratt, BIT 11, 1971). `last_height` (m, below 0) is that at the end.
+/// Returns the part of the step at which the sole of the swing foot touches the plane, by the rule of false position
+/// with halved ordinates (the Illinois algorithm; Dowell and Jarratt, BIT 11, 1971). `last_height` (m, below 0): height
+/// at the end.
 double Footing::crossing(const LegPositions& q, const Stance& stance, double from, double last_height) const {
   const auto height_at = [&](double s) {
     return height(1 - stance.foot, stance.pose * feet_at(q, s).other(stance.foot));
@@ -95,7 +96,7 @@ double Footing::walk(const LegPositions& q, const FootPoses& end, Stance& stance
     swing_height = height(swing, swing_at_end);
     if (swing_height >= -hysteresis_) break;
     const double s = crossing(q, stance, std::max(last, 0.0), swing_height);
-    if (s == last || changes == most_changes) {  // both press into the plane: the robot is lifted
+    if (s == last || changes == most_changes) {  // both feet press into the plane: the robot is lifted
       put_down(swing, swing_at_end, end, stance);
       swing_height = height(1 - stance.foot, stance.pose * end.other(stance.foot));
       break;
@@ -125,8 +126,8 @@ Stance Footing::stand_up(const Pose& base, const FootPoses& feet, const Stance& 
   return stand_on_edges(base, feet, before);
 }
 
-/// Neither sole can lie flat, for the other one is in its way: the mean of their normals looks down, and the robot
-/// stands on what of the soles is lowest then.
+/// Returns a stance in which neither sole lies flat, since the other foot would be below the plane. The mean of their
+/// normals points down, and the robot stands on the lowest point of the soles.
 Stance Footing::stand_on_edges(const Pose& base, const FootPoses& feet, const Stance& before) const {
   const auto down = [&](std::uint32_t i) {
     return Vec3((base.orientation * feet.foot[i].orientation) * feet_.soles[i].normal());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Walkers against closed forms: a compass, a robot that turns, ties of both feet, tilted soles.
+// Walkers compared with closed forms: a compass, a robot that turns, ties of both feet, tilted soles.
 #include <gtest/gtest.h>
 
 #include "plugins/common/mesh/files_testing.hpp"
@@ -50,13 +50,13 @@ TEST(CompassWalker, MovesOnAnArcAboutItsAnkleBetweenSteps) {
 
 TEST(CompassWalker, ItsVelocityJumpsByTwoLSinAAtAStep) {
   const Compass legs;
-  const double dt = 0.01, rate = 2 * legs.a / legs.period;  // rad/s, of the hips
+  const double dt = 0.01, rate = 2 * legs.a / legs.period;  // rad/s: velocity of the hips
   Walk w(1 / dt, {}, legs.start());
   const auto velocity_at = [&](double s) { return Vec3(leg_length * rate * Vec3(std::cos(s), 0, -std::sin(s))); };
   for (int k = 1; k <= 60; ++k) {
     legs.set(w, k * dt);
     w.run_for(dt);
-    const double s = legs.a * (2 * (k <= 40 ? k : k - 40) / 40.0 - 1);  // of the stance leg
+    const double s = legs.a * (2 * (k <= 40 ? k : k - 40) / 40.0 - 1);  // angle of the stance leg
     ASSERT_LT((w.twist(w.robot).linear - velocity_at(s)).norm(), 1e-9) << "step " << k;
     ASSERT_LT(w.twist(w.robot).angular.norm(), 1e-9);
   }
@@ -78,15 +78,15 @@ TEST(CompassWalker, ClimbsAnInclinedPlane) {
   EXPECT_LT((way - plane.orientation * Vec3(5 * 2 * leg_length * std::sin(legs.a), 0, 0)).norm(), 1e-9);
 }
 
-/// Legs that swing to and fro, one against the other, and are shortened in turn, a part of the period later:
-/// s = a sin(w t), c = (c0 / 2) (1 -+ sin(w t + phase)). Feet are at one height where both are shortened alike, at
-/// w t = n pi - phase, and a foot comes down while the legs swing. All that they command is smooth.
+/// Legs that swing to and fro against each other, and are shortened in turn, a part of the period later:
+/// s = a sin(w t), c = (c0 / 2) (1 -+ sin(w t + phase)). Feet are at one height when both are shortened alike, at
+/// w t = n pi - phase, and a foot comes down while the legs swing. All commands are smooth.
 struct Swing {
   double a = 20 * degree, lift = 0.03, phase = 0.8, omega = 2 * M_PI / 0.8274;
 
   double angle(double t) const { return a * std::sin(omega * t); }
   double shorter(double t) const { return 0.5 * lift * (1 + std::sin(omega * t + phase)); }
-  /// m, along the plane, from the left ankle to the hip.
+  /// Returns the distance along the plane from the left ankle to the hip (m).
   double ahead(double t) const { return (leg_length - shorter(t)) * std::sin(angle(t)); }
   void set(Walk& w, double t) const {
     for (const bool is_left : {true, false}) {
@@ -97,10 +97,10 @@ struct Swing {
       w.set(leg + "lift", is_left ? shorter(t) : lift - shorter(t));
     }
   }
-  /// m, of the hip along the plane in `t`: the left foot stands while it is the less shortened leg.
+  /// Returns the way of the hip along the plane in `t` (m). The left foot stands while its leg is shortened less.
   double way(double t) const {
     double sum = 0, from = 0;
-    bool left_stands = false;  // at first
+    bool left_stands = false;  // before the first change
     for (int n = 1;; ++n) {
       const double down = (n * M_PI - phase) / omega, to = std::min(down, t);
       const auto in_stance = [&](double at) {
@@ -113,7 +113,7 @@ struct Swing {
   }
 };
 
-/// m: by how much the hip is elsewhere after 4 s than it should be.
+/// Returns the error of the position of the hip after 4 s (m).
 double error_of_swing(double dt) {
   const Swing legs;
   Walk w(1 / dt, {}, {{"left_lift", legs.shorter(0)}, {"right_lift", legs.lift - legs.shorter(0)}});
@@ -176,7 +176,7 @@ TEST(TurningWalker, TurnsAboutTheLineThroughTheHipOfTheStanceLeg) {
   const double q = 10 * degree;
   Walk w(100);
   const Vec3 start = w.base().position;
-  const int steps = 20;  // of the simulation for each of the robot
+  const int steps = 20;  // steps of the simulation per step of the robot
   double yaw[2] = {0, 0};
   for (int n = 0; n < 36; ++n) {
     const int stance = n % 2, swing = 1 - stance;
@@ -208,7 +208,8 @@ TEST(TurningWalker, TurnsAboutTheLineThroughTheHipOfTheStanceLeg) {
 
 double pitch_of(const Quat& q) { return std::asin(std::clamp((q * Vec3::UnitX()).z() * -1, -1.0, 1.0)); }
 
-/// The pitch of the trunk (rad) at the end of each stance when every foot comes down with its toe up by `toe_up`.
+/// Returns the pitch of the trunk (rad) at the end of each stance when every foot comes down with its toe up by
+/// `toe_up`.
 std::vector<double> pitch_at_ends(double toe_up, double& lowest_sole, double& largest) {
   Compass legs;
   legs.a = 15 * degree;
@@ -222,7 +223,7 @@ std::vector<double> pitch_at_ends(double toe_up, double& lowest_sole, double& la
       for (const double x : {-0.5, 0.5})
         lowest_sole = std::min(lowest_sole, (w.link(foot) * Vec3(x * foot_length, 0, 0)).z());
     largest = std::max(largest, std::abs(pitch_of(w.base().orientation)));
-    if (k % 80 == 40) ends.push_back(pitch_of(w.base().orientation));  // in the middle: half of the tilt is left
+    if (k % 80 == 40) ends.push_back(pitch_of(w.base().orientation));  // in the middle: half of the tilt remains
   }
   return ends;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Walkers for tests: a trunk at the height of its hips and two legs whose feet have flat soles at their ankles.
+// Walkers for tests: a trunk at the height of its hips, and two legs whose feet have flat soles at their ankles.
 #pragma once
 
 #include "keys.hpp"
@@ -13,11 +13,11 @@ using Parameters = std::map<std::string, ParameterInput>;
 using Names = std::vector<std::string>;
 
 inline constexpr double leg_length = 0.3;     ///< m
-inline constexpr double hip_spacing = 0.037;  ///< m, of each hip from the middle
-inline constexpr double foot_length = 0.1;    ///< m, half of it before the ankle
+inline constexpr double hip_spacing = 0.037;  ///< m: distance of each hip from the middle
+inline constexpr double foot_length = 0.1;    ///< m: half of it is before the ankle
 
-/// Each leg has joints yaw (z), hip (y), lift (it shortens the leg, m), ankle (y); the base is between the hips.
-/// `trunk`: what others may touch of it; `mesh`: file of a sole in place of `soles`.
+/// Returns a walker. Each leg has joints yaw (z), hip (y), lift (it shortens the leg, m), ankle (y); the base is
+/// between the hips. `trunk`: collision shape of the trunk; `mesh`: file of a sole that replaces `soles`.
 inline RobotTree walker(std::vector<Shape> soles, const Shape* trunk = nullptr, const std::string& mesh = "") {
   return test::tree_of([&](RobotBuilder& b) {
     if (!mesh.empty()) soles = {{.kind = ShapeKind::mesh, .mesh = b.intern(mesh), .size = Vec3::Ones()}};
@@ -44,7 +44,7 @@ inline RobotTree walker(std::vector<Shape> soles, const Shape* trunk = nullptr, 
     b.end();
   });
 }
-/// A plate whose lower side is at the ankle.
+/// Returns a plate whose lower side is at the ankle.
 inline Shape flat_sole() {
   Shape plate = Shape::box({foot_length, 0.05, 0.02});
   plate.origin.position.z() = 0.01;
@@ -83,13 +83,13 @@ struct Walk : test::Scene {
   std::uint32_t contact(const std::string& foot) { return world().value("r/" + foot, keys::foot_contact); }
 };
 
-/// The legs of the compass walker: the trunk goes upright over the stance leg, whose angle from the normal of the plane
-/// goes evenly from -a to a in `period`; the other leg, at the opposite angle, is shortened by up to `lift` on the way.
+/// Legs of the compass walker: the trunk stays upright over the stance leg, whose angle from the normal of the plane
+/// goes evenly from -a to a in `period`. The other leg, at the opposite angle, is shortened by up to `lift` on the way.
 struct Compass {
   double a = 20 * M_PI / 180, period = 0.4, lift = 0.03;
-  double toe_up = 0;  ///< rad, of the foot of the swing leg when it comes down; it is 0 at the end of the stance
+  double toe_up = 0;  ///< rad: pitch of the foot of the swing leg when it comes down; it is 0 at the end of the stance
 
-  /// Sets the targets of time `t` (s): left foot first.
+  /// Sets the targets at time `t` (s); the left foot stands first.
   void set(Walk& w, double t) const {
     const auto step = std::int64_t(std::floor(t / period + 1e-9));
     const double part = t / period - double(step), s = a * (2 * part - 1);
