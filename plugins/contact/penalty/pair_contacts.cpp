@@ -40,32 +40,14 @@ void PairContacts::add_records() {
   }
 }
 
-void PairContacts::pass(int which, std::uint32_t robot) {
-  switch (which) {
-    case 0:
-      set_up(robot);
-      return find_patches(robot);
-    case 1:
-      find_load(robot);
-      return count_impacts(robot);
-    case 2: {
-      const std::uint32_t group = record(robot).group;
-      if (group == no_group) {
-        find_springs(robot);
-        kernels_.push(known_[robot].points.data(), int(known_[robot].points.size()), context_.stiffness,
-                      context_.elapsed);
-      } else if (groups_[group].robots.front() == robot) {
-        solve_group(group);
-      }
-      return;
-    }
-    case 3:
-      apply_forces(robot);
-      apply_impacts(robot);
-      return keep_told(robot);
-    case 4:
-      return add_reactions(robot);
+void PairContacts::find_forces(std::uint32_t robot) {
+  const std::uint32_t group = record(robot).group;
+  if (group != no_group) {
+    if (groups_[group].robots.front() == robot) solve_group(group);
+    return;
   }
+  find_springs(robot);
+  kernels_.push(known_[robot].points.data(), int(known_[robot].points.size()), context_.stiffness, context_.elapsed);
 }
 
 void PairContacts::set_up(std::uint32_t self) {
@@ -83,124 +65,6 @@ void PairContacts::set_up(std::uint32_t self) {
     me.mobilities.push_back(
         law::mobility_of(bodies_.masses[body.mass], {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}}));
   }
-}
-
-/// Whether robot `self` computes the contact. Both robots of a pair list it, but only one computes it.
-bool PairContacts::computes(std::uint32_t self, std::int32_t other) const {
-  if (other == not_dynamic) return true;
-  const std::uint64_t mine = bodies_.robots[self].order_key, theirs = bodies_.robots[std::size_t(other)].order_key;
-  return mine != theirs ? mine < theirs : self < std::uint32_t(other);
-}
-
-/// Whether robot `self` computes its contacts with a body. `other_robot`: out, robot of the body, if forces on it
-/// count.
-bool PairContacts::computes_contacts_with(std::uint32_t self, ObjectId body, std::int32_t& other_robot) {
-  other_robot = bodies_.dynamic_robot_of(bodies_[body]);
-  if (!contact_algorithm_resolves(*bodies_.robots[self].world, bodies_.world_of(other_robot))) return false;
-  // Nothing is computed for robots that list nothing: a shadow's partner, and one handed over after the collision step.
-  const bool takes_part = other_robot != not_dynamic && (*flags_)[std::size_t(other_robot)] != 0;
-  if (bodies_.robots[self].is_shadow || !takes_part) other_robot = not_dynamic;
-  if (computes(self, other_robot)) return true;
-  std::vector<std::uint32_t>& owners = record(self).owners;
-  const auto owner = std::uint32_t(other_robot);
-  if (std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
-  return false;
-}
-
-/// Finds the runs of the present list.
-void PairContacts::find_runs(std::uint32_t self) {
-  KnownContacts& known = known_[self];
-  const Robot& robot = bodies_.robots[self];
-  const auto contacts = *robot.contacts;
-  if (known.count == contacts.size() && known.revision == robot.contacts.revision()) return;
-  known.count = contacts.size();
-  known.revision = robot.contacts.revision();
-  known.resist_turning = false;
-  known.computed.clear();
-  known.points.clear();
-  known.runs.clear();
-  for (std::uint32_t k = 0; k < contacts.size(); ++k) {
-    if (known.runs.empty() || known.runs.back().other != contacts[k].other)
-      known.runs.push_back({.other = contacts[k].other, .end = k});
-    known.runs.back().end = k + 1;
-    const Surface& surface = contacts[k].surface;
-    known.resist_turning = known.resist_turning || surface.rolling_resistance > 0 || surface.spinning_resistance > 0;
-  }
-}
-
-/// Finds the contacts to compute, from the present runs.
-void PairContacts::find_computed(std::uint32_t self) {
-  static constexpr double at_rest[6] = {};
-  KnownContacts& known = known_[self];
-  known.computed.clear();
-  known.points.clear();
-  std::uint32_t k = 0;
-  const auto contacts = *bodies_.robots[self].contacts;
-  for (const Run& run : known.runs) {
-    for (; k < run.end; ++k) {
-      if (!run.is_computed) continue;
-      const Contact& contact = contacts[k];
-      const Body &own = bodies_[contact.self], &other = bodies_[contact.other];
-      known.computed.push_back(
-          {.pair = bodies_.pair_of(contact),
-           .place = k,
-           .body = own.dynamic_body,
-           .other_body = other.dynamic_body,
-           .model = other.model,
-           .other_robot = run.other_robot,
-           .zeta = bodies_.materials[bodies_.material_of(contact.surface.restitution)].damping_ratio,
-           .is_of_disc = bodies_.is_of_disc(contact)});
-      PairPoint& p = known.points.emplace_back();
-      p.pose = own.twist ? own.pose->position.data() : at_rest;
-      p.twist = own.twist ? own.twist->linear.data() : at_rest;
-      p.other_pose = other.twist ? other.pose->position.data() : at_rest;
-      p.other_twist = other.twist ? other.twist->linear.data() : at_rest;
-    }
-  }
-}
-
-/// Finds which contacts the robot computes in this step, and how they move.
-void PairContacts::update_computed(std::uint32_t self) {
-  KnownContacts& known = known_[self];
-  find_runs(self);
-  const double lag = *bodies_.robots[self].lag;
-  bool is_same = !known.computed.empty(), has_lag = lag != 0;
-  for (Run& run : known.runs) {
-    std::int32_t other_robot = not_dynamic;
-    const bool is_computed = computes_contacts_with(self, run.other, other_robot);
-    is_same = is_same && is_computed == run.is_computed && other_robot == run.other_robot;
-    run.is_computed = is_computed;
-    run.other_robot = other_robot;
-    has_lag = has_lag || (other_robot != not_dynamic && *bodies_.robots[std::size_t(other_robot)].lag != 0);
-  }
-  if (!is_same) find_computed(self);
-  const Contact* const contacts = (*bodies_.robots[self].contacts).data();
-  for (std::size_t i = 0; i < known.points.size(); ++i) {
-    const Computed& c = known.computed[i];
-    PairPoint& p = known.points[i];
-    p.contact = contacts[c.place].point.data();
-    if (!has_lag) continue;
-    p.lag = lag;
-    p.other_lag = c.other_robot == not_dynamic ? 0 : *bodies_.robots[std::size_t(c.other_robot)].lag;
-  }
-  find_cells(known);
-  kernels_.move(known.points.data(), int(known.points.size()), context_.stiffness.h, has_lag);
-}
-
-/// Finds the cells of lines and faces.
-void PairContacts::find_cells(KnownContacts& known) {
-  const auto normal = [&](std::size_t i) { return Vec3(Vec3::Map(known.points[i].contact + 3)); };
-  const auto belongs = [&](std::size_t first, std::size_t i) {
-    return known.computed[i].pair == known.computed[first].pair && normal(first).dot(normal(i)) > same_direction;
-  };
-  contact_geometry::each_patch(known.computed.size(), belongs, [&](std::size_t begin, std::size_t end) {
-    std::fill_n(known.points[begin].turn, 3, 0.0);
-    contact_geometry::find_cells(
-        end - begin, known.computed[begin].is_of_disc, [&](std::size_t i) { return known.points[begin + i].contact; },
-        [&](std::size_t i, const Vec3& cell) {
-          Vec3::Map(known.points[begin + i].turn) = normal(begin + i).cross(cell);
-        });
-  });
 }
 
 /// Sorts the contacts of a robot into patches.
@@ -423,7 +287,7 @@ void PairContacts::add_reactions(std::uint32_t self) {
   if (record(self).impacts > 0) add_impact_reactions(self);
 }
 
-void PairContacts::tell_kinematic_robots() const {
+void PairContacts::list_kinematic_robots() const {
   for (const std::uint32_t robot : bodies_.by_order_key) {
     if ((*flags_)[robot] == 0) continue;
     for (const ContactWrench& contact : record(robot).told)

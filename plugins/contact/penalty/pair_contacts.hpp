@@ -13,8 +13,10 @@
 
 namespace muro::penalty {
 
-/// Each robot is processed in five passes, which read the results of earlier passes for other robots. A pass writes
-/// only the data of its robot; one pass writes those of all robots of its group. So threads may share the robots.
+/// Each robot is processed in five passes, in this order: find_contacts, find_loads, find_forces, apply,
+/// apply_reactions; prepare_groups comes before find_forces. A pass reads the results of earlier passes for other
+/// robots, and writes only the data of its robot (one robot of a group: those of all robots of the group), so threads
+/// may share the robots.
 class PairContacts {
  public:
   PairContacts(const Bodies& bodies, Host& host)
@@ -33,24 +35,46 @@ class PairContacts {
   /// forces move has its flag set too. Returns the number of robots.
   std::size_t begin(const StepContext& context, const std::vector<std::uint8_t>& flags);
 
-  static constexpr int passes = 5;
-  /// Runs a pass. `which`: 0 to 4, in this order. `robot`: one of those that begin() took.
-  void pass(int which, std::uint32_t robot);
-  /// Call it between passes 1 and 2. Finds which robots carry each other, and resolves the impacts of bodies that are
-  /// in several, one after the other in the order of their times.
+  /// Finds the contacts that the robot computes, and their patches. `robot`: one of those that begin() took.
+  void find_contacts(std::uint32_t robot) {
+    set_up(robot);
+    find_patches(robot);
+  }
+  /// Finds its stiffest motion, and the impacts that it is in.
+  void find_loads(std::uint32_t robot) {
+    find_load(robot);
+    count_impacts(robot);
+  }
+  /// Finds groups of robots that carry each other, and resolves the impacts of bodies that are in several, one after
+  /// the other in the order of their times. Once for all robots.
   void prepare_groups() {
     find_groups();
     resolve_in_turns();
   }
-  /// Call it after the passes. Reports contacts to robots that no force moves, if something reads them.
-  void tell_kinematic_robots() const;
+  /// Finds the forces of its contacts, or of all contacts of its group.
+  void find_forces(std::uint32_t robot);
+  /// Applies them and the impulses of impacts to the robot.
+  void apply(std::uint32_t robot) {
+    apply_forces(robot);
+    apply_impacts(robot);
+    keep_told(robot);
+  }
+  /// Adds the reactions of contacts that other robots compute.
+  void apply_reactions(std::uint32_t robot) { add_reactions(robot); }
+  /// Lists what contacts do to robots that no force moves, where something reads it. Once, after all passes.
+  void list_kinematic_robots() const;
   /// Runs all passes for all robots.
   void run() {
-    for (int which = 0; which < passes; ++which) {
-      if (which == 2) prepare_groups();
-      for (const std::uint32_t r : robots_) pass(which, r);
-    }
-    if (bodies_.tells_kinematic_robots) tell_kinematic_robots();
+    const auto each = [&](void (PairContacts::*pass)(std::uint32_t)) {
+      for (const std::uint32_t robot : robots_) (this->*pass)(robot);
+    };
+    each(&PairContacts::find_contacts);
+    each(&PairContacts::find_loads);
+    prepare_groups();
+    each(&PairContacts::find_forces);
+    each(&PairContacts::apply);
+    each(&PairContacts::apply_reactions);
+    if (bodies_.tells_kinematic_robots) list_kinematic_robots();
   }
 
  private:

@@ -86,27 +86,58 @@ class Penalty final : public Algorithm {
     constexpr double slowest_impact = 0.02;  // m/s
     context.impact_speed = std::max(slowest_impact, gravity_.norm() / context.stiffness.omega);
     context.correcting_speed = correcting_speed_;
-    if (step.phase == 0) return scenery_contacts_->apply_forces(context, range);
-    if (step.phase == groups_phase) return pair_contacts_->prepare_groups();
-    if (step.phase == kinematic_phase) return pair_contacts_->tell_kinematic_robots();
-    if (step.phase > groups_phase) return process_pairs(int(step.phase) - 3, range);
-    if (step.phase > 1) return process_pairs(int(step.phase) - 2, range);
-    *last_run_ = step.time;
-    if (context.stiffness.omega < omega_) report(context.stiffness);
-    if (bodies_.tells_kinematic_robots) bodies_.clear_kinematic_lists();
-    constexpr std::size_t few = 12;  // so many robots take less time than their distribution to threads
-    const std::size_t count = pair_contacts_->begin(context, scenery_contacts_->remaining());
-    many_pairs_ = count > few ? 1 : 0;
-    tells_kinematic_robots_ = many_pairs_ != 0 && bodies_.tells_kinematic_robots ? 1 : 0;
-    if (!many_pairs_) pair_contacts_->run();
+    switch (step.phase) {
+      case with_scenery:
+        return scenery_contacts_->apply_forces(context, range);
+      case few_pairs:
+        return begin_pairs(context);
+      case pair_contacts:
+        return each_pair_robot(&PairContacts::find_contacts, range);
+      case pair_loads:
+        return each_pair_robot(&PairContacts::find_loads, range);
+      case pair_groups:
+        return pair_contacts_->prepare_groups();
+      case pair_forces:
+        return each_pair_robot(&PairContacts::find_forces, range);
+      case pair_application:
+        return each_pair_robot(&PairContacts::apply, range);
+      case pair_reactions:
+        return each_pair_robot(&PairContacts::apply_reactions, range);
+      case kinematic_lists:
+        return pair_contacts_->list_kinematic_robots();
+    }
   }
 
  private:
-  void process_pairs(int pass, Range block) {
+  /// Phases of a step. Those of pairs run only when many robots touch something that moves; few_pairs serves few.
+  enum PhaseName : std::uint32_t {
+    with_scenery,
+    few_pairs,
+    pair_contacts,
+    pair_loads,
+    pair_groups,
+    pair_forces,
+    pair_application,
+    pair_reactions,
+    kinematic_lists,
+    phase_count
+  };
+
+  void begin_pairs(const StepContext& context) {
+    *last_run_ = context.time;
+    if (context.stiffness.omega < omega_) report(context.stiffness);
+    if (bodies_.tells_kinematic_robots) bodies_.clear_kinematic_lists();
+    constexpr std::size_t few = 12;  // take less time than distributing them to threads
+    const std::size_t count = pair_contacts_->begin(context, scenery_contacts_->remaining());
+    many_pairs_ = count > few ? 1 : 0;
+    lists_kinematic_robots_ = many_pairs_ != 0 && bodies_.tells_kinematic_robots ? 1 : 0;
+    if (!many_pairs_) pair_contacts_->run();
+  }
+  void each_pair_robot(void (PairContacts::*pass)(std::uint32_t), Range block) {
     for (std::uint32_t number = block.begin; number < block.end; ++number) {
       const std::int32_t robot = bodies_.robot_of[number];
       if (robot != not_dynamic && scenery_contacts_->remaining()[std::size_t(robot)])
-        pair_contacts_->pass(pass, std::uint32_t(robot));
+        (*pair_contacts_.*pass)(std::uint32_t(robot));
     }
   }
   void report(const Stiffness& s) {
@@ -125,19 +156,17 @@ class Penalty final : public Algorithm {
   std::unique_ptr<SceneryContacts> scenery_contacts_;
   std::unique_ptr<PairContacts> pair_contacts_;
   Out<std::int64_t> last_run_;
-  std::uint8_t many_pairs_ = 0, tells_kinematic_robots_ = 0;
+  std::uint8_t many_pairs_ = 0, lists_kinematic_robots_ = 0;
   const Phase for_many_{.index_space = Phase::IndexSpace::robots, .enabled = &many_pairs_};
-  static_assert(PairContacts::passes == 5);
-  static constexpr std::uint32_t groups_phase = 4, kinematic_phase = 8;
-  const Phase phases_[9] = {{Phase::IndexSpace::robots, Phase::Scope::own_robot},
-                            {},
-                            for_many_,
-                            for_many_,
-                            {.enabled = &many_pairs_},
-                            for_many_,
-                            for_many_,
-                            for_many_,
-                            {.enabled = &tells_kinematic_robots_}};
+  const Phase phases_[phase_count] = {{Phase::IndexSpace::robots, Phase::Scope::own_robot},  // with_scenery
+                                      {},                                                    // few_pairs
+                                      for_many_,                                             // pair_contacts
+                                      for_many_,                                             // pair_loads
+                                      {.enabled = &many_pairs_},                             // pair_groups
+                                      for_many_,                                             // pair_forces
+                                      for_many_,                                             // pair_application
+                                      for_many_,                                             // pair_reactions
+                                      {.enabled = &lists_kinematic_robots_}};                // kinematic_lists
 };
 
 constexpr abi::AlgorithmEntry algorithms[] = {algorithm<Penalty>(description)};
