@@ -12,7 +12,7 @@ namespace muro::multibody {
 inline constexpr std::string_view joint_modes[] = {"auto", "velocity", "position", "effort", "passive"};
 inline constexpr std::string_view base_modes[] = {"free", "fixed"};
 
-// Of each robot.
+// Parameters of each robot.
 inline constexpr Parameter world_name = text("world", "", "robots that name the same world share it and meet in it");
 inline constexpr Parameter base_mode =
     text("base", "free", "whether the base is fixed to the world").one_of(base_modes);
@@ -24,7 +24,7 @@ inline constexpr Parameter joint_mode =
 inline constexpr Parameter self_collision =
     boolean("self_collision", false, "whether links of the robot touch each other, but neighbours");
 
-// Of a world: equal for all of its robots.
+// Parameters of a world: equal for all of its robots.
 inline constexpr Parameter mimic_gain =
     real("mimic_gain", "1/s", 100,
          "speed of a mimic joint beyond that of its leader by its distance to where it belongs")
@@ -32,7 +32,7 @@ inline constexpr Parameter mimic_gain =
 inline constexpr Parameter substeps =
     integer("substeps", 1, "steps of the engine in each step of the motion").between(1, 1000);
 
-// Of worlds whose engines know them.
+// Parameters of worlds whose engines support them.
 inline constexpr std::string_view mesh_modes[] = {"convex", "exact"};
 inline constexpr Parameter scenery_meshes =
     text("meshes", "convex", "meshes of scenery collide as their convex hulls or as they are").one_of(mesh_modes);
@@ -46,7 +46,7 @@ inline constexpr Parameter attitude =
     text("attitude", "engine", "who turns robots of one body: the engine, or the solution of Euler's equations")
         .one_of(attitudes);
 
-/// Those of all engines, in the order in which they are shown.
+/// Parameters of all engines, in the order in which they are shown.
 inline constexpr Parameter common_parameters[] = {
     world_name,     base_mode,         joint_mode,      velocity_joints,    position_joints,    effort_joints,
     passive_joints, natural_frequency, drive_stiffness, drive_damping,      interpolate,        self_collision,
@@ -63,7 +63,7 @@ constexpr std::array<Parameter, std::size(common_parameters) + n> with_common_pa
   return all;
 }
 
-/// Whether robots of one world may differ in it.
+/// Whether robots of one world may have different values of this parameter.
 inline bool is_of_robot(std::string_view parameter) {
   for (const Parameter* p : {&world_name, &base_mode, &joint_mode, &self_collision, &velocity_joints, &position_joints,
                              &effort_joints, &passive_joints, &natural_frequency, &drive_stiffness, &drive_damping,

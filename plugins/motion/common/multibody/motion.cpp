@@ -41,7 +41,7 @@ void Motion::connect(Connector& c) {
   traits_.twist_lag = 0.5 / substeps_;
   traits_.couples_mimics = couples_mimics();
   configure(c);
-  traits_.advice = advice();  // which depends on what was configured
+  traits_.advice = advice();  // depends on what configure() has read
   for (std::uint32_t i = 0; i < c.items().size(); ++i) connect_robot(c, c.items()[i], c.parameters_of(i));
   std::vector<bool> own(c.items().size());
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = served_[i].by_world != nullptr;
@@ -158,7 +158,7 @@ void Motion::step(const Step& step, Range) {
     if (moves(i)) accelerations_.end_step(i, step.dt);
 }
 
-/// Whether it is this motion that moves the robot at present.
+/// Whether this motion moves the robot at present.
 bool Motion::moves(std::uint32_t item) const {
   const Served& s = served_[item];
   return s.by_world ? s.by_world->is_dynamic() : s.by_targets->is_active();
@@ -181,7 +181,7 @@ void Motion::step_world(const Step& step) {
     if (r.is_dynamic()) r.export_state();
 }
 
-/// An engine that does not say which robot it has failed at mostly has at the one that is nearest to its limits.
+/// When an engine fails without naming a robot, it has mostly failed at the robot that is nearest to its limits.
 void Motion::advance(double dt) {
   try {
     world_->advance(dt);
