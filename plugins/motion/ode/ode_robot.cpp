@@ -352,8 +352,7 @@ void OdeRobot::set_stops(const OdeBody& body, JointKind kind, double low, double
   const auto set = kind == JointKind::revolute ? &dJointSetHingeParam : &dJointSetSliderParam;
   set(body.joint, dParamLoStop, std::isfinite(low) ? low : -dInfinity);
   set(body.joint, dParamHiStop, std::isfinite(high) ? high : dInfinity);
-  set(body.joint, dParamLoStop,
-      std::isfinite(low) ? low : -dInfinity);  // ignored while above the other
+  set(body.joint, dParamLoStop, std::isfinite(low) ? low : -dInfinity);  // ignored while above the other
 }
 
 /// Sets the stops that are near. ODE knows the angle of a hinge only up to whole turns, so a stop that may be more than
