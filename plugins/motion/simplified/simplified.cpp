@@ -108,7 +108,7 @@ class Simplified final : public Algorithm {
     return phases;
   }
 
-  /// Neighbours of one kind go eight at a time.
+  /// Moves robots. Neighbours of one kind move eight at a time.
   void step(const Step& step, Range range) override {
     if (step.index % watch::RobotWatch::interval == 0) look_at(step, range);
     accelerations_.begin_step(range);
@@ -136,7 +136,7 @@ class Simplified final : public Algorithm {
  private:
   static constexpr std::uint32_t lane_width = 8;
 
-  /// What robots that are moved together have in common.
+  /// Common data of robots that are moved together.
   struct Kind {
     std::uint32_t model = 0;     ///< in models_
     std::uint32_t wrenches = 0;  ///< contributions to the external wrench
@@ -153,7 +153,7 @@ class Simplified final : public Algorithm {
     Inertia inertia;  ///< of all its bodies at the start, in the frame of the base
   };
 
-  /// Connects the robot whose joints have modes_, anew when it is found out that they have others.
+  /// Connects a robot whose joints have modes_. Called again when its joints turn out to have other modes.
   void connect_robot(Connector& c, std::uint32_t number) {
     const Item& item = c.items()[number];
     const RobotView& robot = *item.robot;
@@ -185,14 +185,14 @@ class Simplified final : public Algorithm {
     std::vector<const double*> watched;
     for (const JointProperties& j : properties) watched.push_back(j.force_driven ? j.velocity : nullptr);
     watches_[number] = watch::RobotWatch(c, robot, watched);
-    // Where another motion of the robot asks for the wrenches on links, they do not act on the base.
+    // When another motion of the robot reads the wrenches on links, they do not act on the base.
     const bool has_levels =
         forces && robot.links.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
     const auto any = [&](bool JointProperties::*what) {
       return forces && std::any_of(properties.begin(), properties.end(), std::mem_fn(what));
     };
     const bool is_first = !robots_[number].contact_world;
-    // The contact algorithm has to know from the start which robots on a fixed base it moves.
+    // The contact algorithm must know from the start which robots on a fixed base it moves.
     const bool is_pushed = !fixed_ || is_first || robots_[number].external.has_value();
     const bool feels_contact = is_pushed && (has_levels || any(&JointProperties::feels_contact));
     model.force_driven = has_levels || any(&JointProperties::force_driven);
@@ -227,7 +227,8 @@ class Simplified final : public Algorithm {
     robots_[number] = std::move(r);
   }
 
-  /// Of each link, whether its joint has a PD drive in mode position. Those without inertia meet their targets.
+  /// Returns for each link whether its joint has a PD drive in mode position. Joints without inertia have none and meet
+  /// their targets.
   static std::vector<bool> joints_with_position_drives(const Connector& c, const RobotView& robot,
                                                        std::span<const Inertia> inertias, std::span<const double> start,
                                                        bool forces) {
@@ -244,7 +245,7 @@ class Simplified final : public Algorithm {
     return result;
   }
 
-  /// Of a robot whose joints no force can move: those that forces would move stand still.
+  /// Notes a robot whose joints no force can move, and whether some stand still because only forces would move them.
   void note_without_forces(const Connector& c, const RobotView& robot, const std::vector<DriveMode>& modes) {
     const auto moves = [](const Link& link) { return link.joint != JointKind::fixed; };
     if (!fixed_ || has_moving_mass(c, robot) || std::none_of(robot.links.begin(), robot.links.end(), moves)) return;
@@ -277,7 +278,7 @@ class Simplified final : public Algorithm {
     if (broken != 0) fail(begin + std::uint32_t(std::countr_zero(broken)));
   }
 
-  /// Joints, then bases.
+  /// Moves joints, then bases.
   void move_by_steps(BatchParameters& batch, const Model& model, std::uint32_t begin, std::uint32_t end) {
     const auto articulation = [&](std::uint32_t i) -> Articulation& {
       return articulations_[std::size_t(robots_[i].articulation)];
@@ -325,10 +326,10 @@ class Simplified final : public Algorithm {
   }
 
   Accelerations accelerations_{mesh::hull_vertices};
-  mesh::Store meshes_;  ///< of collision shapes, for the size of robots
+  mesh::Store meshes_;  ///< meshes of collision shapes, for the size of robots
   bool fixed_ = false;
   std::vector<std::string> without_forces_;  ///< robots whose joints no force can move
-  bool stand_still_ = false;                 ///< some of their joints
+  bool stand_still_ = false;                 ///< some of their joints stand still
   bool tells_applied_ = false;               ///< some of applied_wrenches_ are read
   double max_acceleration_ = 0;
   Vec3 gravity_ = Vec3::Zero();
@@ -336,14 +337,14 @@ class Simplified final : public Algorithm {
   std::vector<Model> models_;
   std::vector<std::vector<DriveMode>> modes_;      ///< of the joints of each robot, one per link
   std::vector<Kind> kinds_;                        ///< one per robot
-  std::array<std::vector<RobotState>, 3> layers_;  ///< by group of joints; one per robot. The first has the base, too
-  std::vector<Robot> robots_;                      ///< the rest of them
-  std::deque<watch::RobotWatch> watches_;          ///< likewise
+  std::array<std::vector<RobotState>, 3> layers_;  ///< by group of joints; one per robot; the first also has the base
+  std::vector<Robot> robots_;                      ///< other data, one per robot
+  std::deque<watch::RobotWatch> watches_;          ///< one per robot
   watch::Surroundings surroundings_;
   std::vector<contact_geometry::ImpactInput> impacts_;  ///< one per robot
-  std::vector<AppliedWrenches> applied_wrenches_;       ///< likewise
-  std::vector<const double*> other_contributions_;      ///< contributions to wrenches, all but the first of each robot
-  std::vector<Wrench> totals_;  ///< of robots with force-driven joints: what acts on them in this step
+  std::vector<AppliedWrenches> applied_wrenches_;       ///< one per robot
+  std::vector<const double*> other_contributions_;  ///< contributions to wrenches, all except the first of each robot
+  std::vector<Wrench> totals_;  ///< of robots with force-driven joints: sum of wrenches in this step
   std::vector<Articulation> articulations_;
   std::vector<ForceDrivenJoints> force_driven_;
 };
