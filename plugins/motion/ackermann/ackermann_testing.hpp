@@ -24,7 +24,7 @@ struct WheelSpec {
   Vec3 upright = Vec3::UnitZ();
   JointLimits steering{.lower = -wide_angle, .upper = wide_angle};
   JointLimits wheel{};
-  std::string leader{};  ///< of the steering joint
+  std::string leader{};  ///< joint that the steering joint mimics
   double multiplier = 1;
 };
 

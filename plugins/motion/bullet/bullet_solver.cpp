@@ -12,8 +12,8 @@ namespace {
 
 constexpr double unbounded = 1e30;
 constexpr double min_split_velocity = 2e-3;  ///< m/s: slower corrections, e.g. by softness, stay in velocities
-constexpr double softness = 0.01;            ///< of the inverse effective mass, see add()
-constexpr double deep_softness = 0.1;        ///< of the inverse effective mass, for deep overlaps
+constexpr double softness = 0.01;            ///< part of the inverse effective mass, see add()
+constexpr double deep_softness = 0.1;        ///< part of the inverse effective mass, for deep overlaps
 constexpr double min_slip = 1e-3;            ///< m/s: a slower slip gives friction no direction
 constexpr double near_limit = 0.02;          ///< rad or m: joints nearer to a limit have a row for it
 

@@ -77,7 +77,7 @@ class BulletSolver final : public btMultiBodyConstraintSolver {
   };
   std::vector<SplitImpulse> split_impulses_;
   btAlignedObjectArray<btScalar> position_velocity_;  ///< change of velocity that moves positions
-  std::vector<int> drive_rows_;                       ///< of the joints of all robots; -1: none
+  std::vector<int> drive_rows_;                       ///< rows of the drives of all robots; -1: none
   std::vector<int> first_drives_;                     ///< start of each robot in `drive_rows_`
 };
 

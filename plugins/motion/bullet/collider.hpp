@@ -20,7 +20,7 @@ struct Collider {
   std::int32_t robot = -1;   ///< robot of this world; -1: an external body
   std::int32_t kinematic_body = -1;
   const std::string* scenery = nullptr;  ///< its name; null for moving bodies, and for meshes that are shells
-  std::uint32_t body = 0;                ///< of the robot
+  std::uint32_t body = 0;                ///< body of the robot
   std::uint32_t loaded_link = 0;         ///< see BodyShape
   std::uint32_t shape_index = 0;         ///< among the shapes of the robot
   ObjectId object = no_object;           ///< object that has the shape

@@ -21,7 +21,7 @@ struct ContactPoint {
 /// Bullet's algorithms for pairs of shapes, run anew each time: nothing is kept from step to step.
 class NarrowPhase {
  public:
-  static constexpr int max_points = 8;    ///< of a pair
+  static constexpr int max_points = 8;    ///< points of a pair
   static constexpr double margin = 0.02;  ///< m: surfaces farther apart are not in contact
 
   NarrowPhase();

@@ -19,7 +19,7 @@ class ModelRobot {
 
   ModelRobot(const multibody::RobotModel& model, multibody::RobotState& state, const ModelRobotSource& source);
 
-  /// Finds its joints in the compiled model.
+  /// Finds its joints in the compiled model, in which the numbers of the source are valid.
   void find_indices(mjModel& m);
   /// Takes over state, targets and external forces.
   void import(mjModel& m, mjData& d);
@@ -56,7 +56,7 @@ class ModelRobot {
   multibody::RobotState* state_;
   const ModelRobotSource* source_;
   std::vector<Joint> joints_;               ///< one per body of the model; unused for the base
-  std::vector<std::int32_t> loaded_links_;  ///< of each body in MuJoCo; -1: none
+  std::vector<std::int32_t> loaded_links_;  ///< number for each body in MuJoCo; -1: none
   int first_dof_ = 0, dof_count_ = 0, free_position_ = 0;
   Pose root_pose_;                                          ///< pose in the file of a root that the world holds
   std::vector<double> armatures_, friction_losses_;         ///< from the file, one per degree of freedom of the robot

@@ -20,7 +20,7 @@ struct ModelDrive {
 struct CompiledFile {
   Model model;
   std::vector<ModelDrive> drives;    ///< one per joint
-  std::vector<std::string> scenery;  ///< of each geom: its name in the scene when the file is the scene's world
+  std::vector<std::string> scenery;  ///< one per geom: its name in the scene when the file is the scene's world
 };
 
 /// A robot of the file.

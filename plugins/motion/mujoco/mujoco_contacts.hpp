@@ -15,7 +15,7 @@ namespace muro::mujoco {
 /// The owner of a geom.
 struct GeomOwner {
   std::int32_t robot = -1;        ///< robot of this world; -1: an external body
-  std::uint32_t body = 0;         ///< of the robot
+  std::uint32_t body = 0;         ///< body of the robot
   std::uint32_t loaded_link = 0;  ///< see BodyShape
   ObjectId object = no_object;    ///< object that has the shape
   Surface surface;

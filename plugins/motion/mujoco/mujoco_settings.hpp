@@ -14,7 +14,7 @@ struct MujocoSettings {
   int iterations = 100;          ///< largest number of solver iterations
   double tolerance = 1e-8;       ///< of the solver
   double time_constant = 0.02;   ///< s: time in which an overlap decays by e
-  double impedance = 0.95;       ///< of contacts, MuJoCo's d: part of its demand that a constraint gets
+  double impedance = 0.95;       ///< MuJoCo's d of contacts: part of its demand that a constraint gets
   double friction_ratio = 500;   ///< impratio: stiffness of friction over that of the normal direction
   int refinements = 2;           ///< largest number of solutions of a step after the first
   double correcting_speed = 1;   ///< m/s: largest speed at which overlapping bodies are separated

@@ -47,7 +47,7 @@ const multibody::MinInertia quick_inertia{1e-3, 0.01};
 /// Largest part of the speeds at joints that may remain after the iterations.
 constexpr double most_unsolved = 1e-3;
 
-/// Number of joints from which the message mentions the cost of the exact solver.
+/// Largest number of joints without a note on the cost of the exact solver, which grows with the cube of the rows.
 constexpr std::size_t many_joints = 24;
 
 /// Whether a link on the base moves the bodies that it touches, like a finger and unlike a wheel: it slides, or its

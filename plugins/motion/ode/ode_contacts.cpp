@@ -11,17 +11,17 @@ using multibody::MotionType;
 
 namespace {
 
-constexpr double deep_softness = 0.1;               ///< of the inverse effective mass
-constexpr double resting_softness_at_1_kHz = 0.02;  ///< of the same: points of a line or face share its load
-constexpr double rebound_softness = 1e-6;           ///< of the same
+constexpr double deep_softness = 0.1;               ///< part of the inverse effective mass
+constexpr double resting_softness_at_1_kHz = 0.02;  ///< part of the same: points of a line or face share its load
+constexpr double rebound_softness = 1e-6;           ///< part of the same
 constexpr double slow_correction = 1e-2;            ///< m/s: a body that lands may rebound at this speed
 constexpr double shallow = 1e-3;                    ///< m: shallower overlaps get this correction, without a SplitStep
 constexpr double sliding_speed = 1e-2;              ///< m/s: friction is along the slip
 constexpr double min_slip = 1e-9;                   ///< m/s: a slower slip has no direction
-constexpr double min_load = 0.05;                   ///< of the friction: a smaller load has no direction
-constexpr double at_limit = 0.98;                   ///< of the friction: a contact with more load may slide
-constexpr double narrowest = 0.995;                 ///< of the friction: along a load at the limit
-constexpr double near_limit = 0.9;                  ///< of the friction: a larger load counts as limited by it
+constexpr double min_load = 0.05;                   ///< part of the friction: a smaller load has no direction
+constexpr double at_limit = 0.98;                   ///< part of the friction: a contact with more load may slide
+constexpr double narrowest = 0.995;                 ///< part of the friction: along a load at the limit
+constexpr double near_limit = 0.9;                  ///< part of the friction: a larger load counts as limited by it
 
 Vec3 spin_of(dGeomID geom) {
   const dBodyID body = dGeomGetBody(geom);

@@ -62,7 +62,7 @@ class OdeRobot {
     Quat start = Quat::Identity();                 ///< orientation at the start of the step
     bool only_rotates = false;                     ///< on a hinge, and carries no slider: its position is not needed
     bool has_far_stops = false;                    ///< see set_near_stops
-    dJointFeedback feedback{};                     ///< of the drive of the joint
+    dJointFeedback feedback{};                     ///< force and torque of the drive
   };
 
   static bool keeps_rotors(const multibody::RobotModel& model, bool exact);

@@ -13,7 +13,7 @@ struct OdeSettings {
   bool exact = false;           ///< dWorldStep instead of dWorldQuickStep
   int iterations = 50;          ///< number of iterations of dWorldQuickStep
   double erp = 0.2;             ///< part of a joint's or contact's error that a step corrects
-  double softness = 1e-4;       ///< of contacts and joints, as part of the inverse effective mass of each
+  double softness = 1e-4;       ///< softness of contacts and joints: part of the inverse effective mass of each
   double cfm = 0;               ///< additional softness, 1/(N s/m): equal for all masses
   double correcting_speed = 1;  ///< m/s: largest speed at which overlapping bodies are separated
   double bounce_speed = 0.02;   ///< m/s: slower impacts do not rebound

@@ -34,7 +34,7 @@ class SplitStep {
     dQuaternion orientation;
   };
 
-  std::vector<Body> bodies_;  ///< of all robots: state at the start of the step, then at its end
+  std::vector<Body> bodies_;  ///< bodies of all robots at the start of the step, then at its end
   std::vector<char> pushed_;  ///< one per robot
 };
 

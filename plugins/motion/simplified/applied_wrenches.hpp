@@ -73,7 +73,7 @@ class AppliedWrenches {
     base.sum.torque -= contact.wrench.torque;
   }
 
-  std::vector<OfLink> links_;       ///< of the robot; empty when nothing reads the wrench of any link
+  std::vector<OfLink> links_;       ///< links of the robot; empty when nothing reads the wrench of any link
   ListIn<ContactWrench> contacts_;  ///< when the base has the sum for other links
 };
 

@@ -87,7 +87,7 @@ class DecoupledDynamics {
   std::vector<double> positions_;  ///< rad or m: of the joint of each body
   std::vector<Body> bodies_;
   std::vector<std::uint32_t> body_of_link_;
-  std::vector<Pose> pose_in_body_;  ///< of each link
+  std::vector<Pose> pose_in_body_;  ///< one per link
   std::vector<Dof> dofs_;
   std::vector<std::vector<MovedBody>> moved_;  ///< by degree of freedom; empty: only its joint moves
   std::vector<AppliedWrench> wrenches_;

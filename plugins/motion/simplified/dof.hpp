@@ -90,7 +90,7 @@ inline DofState follow_drive(const DofState& s, const ImplicitDrive& drive, doub
 /// A drive that follows its target as long as its effort suffices.
 struct Drive {
   Mode mode = Mode::velocity;
-  double target = 0;            ///< of the mode
+  double target = 0;            ///< target of the mode
   double max_acceleration = 0;  ///< rad/s^2 or m/s^2
 };
 

@@ -52,9 +52,9 @@ class ForceDrivenJoints {
     double min_inertia;  ///< kg m^2 or kg: lower bound of the inertia in all poses of the robot
     Out<double> effort;
     ObjectId object;
-    DriveLosses losses;  ///< of its drive in mode effort
+    DriveLosses losses;  ///< losses of its drive in mode effort
     PositionDrive drive;
-    PositionTarget target;  ///< of a PD drive
+    PositionTarget target;  ///< target of a PD drive
     std::vector<Follower> followers;
   };
   /// Any joint of the robot.

@@ -150,7 +150,7 @@ class Simplified final : public Algorithm {
     std::int32_t articulation = -1;              ///< in articulations_; -1: no joint moves mass
     std::int32_t force_driven = -1;              ///< in force_driven_; -1: no force drives a joint
     std::string name;
-    Inertia inertia;  ///< of all its bodies at the start, in the frame of the base
+    Inertia inertia;  ///< inertia of all its bodies at the start, in the frame of the base
   };
 
   /// Connects a robot whose joints have modes_. Called again when its joints turn out to have other modes.
@@ -335,7 +335,7 @@ class Simplified final : public Algorithm {
   Vec3 gravity_ = Vec3::Zero();
   const Kernels* kernels_ = &kernels_for(lane::best_isa());
   std::vector<Model> models_;
-  std::vector<std::vector<DriveMode>> modes_;      ///< of the joints of each robot, one per link
+  std::vector<std::vector<DriveMode>> modes_;      ///< modes of the joints of each robot, one per link
   std::vector<Kind> kinds_;                        ///< one per robot
   std::array<std::vector<RobotState>, 3> layers_;  ///< by group of joints; one per robot; the first also has the base
   std::vector<Robot> robots_;                      ///< other data, one per robot
@@ -344,7 +344,7 @@ class Simplified final : public Algorithm {
   std::vector<contact_geometry::ImpactInput> impacts_;  ///< one per robot
   std::vector<AppliedWrenches> applied_wrenches_;       ///< one per robot
   std::vector<const double*> other_contributions_;  ///< contributions to wrenches, all except the first of each robot
-  std::vector<Wrench> totals_;  ///< of robots with force-driven joints: sum of wrenches in this step
+  std::vector<Wrench> totals_;  ///< sum of wrenches in this step, for robots with force-driven joints
   std::vector<Articulation> articulations_;
   std::vector<ForceDrivenJoints> force_driven_;
 };

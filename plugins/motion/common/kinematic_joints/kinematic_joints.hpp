@@ -149,7 +149,7 @@ class KinematicJoints {
   }
 
   std::vector<Joint> joints_;
-  std::vector<std::string> names_;  ///< of the joints
+  std::vector<std::string> names_;  ///< names of the joints
   std::vector<Mimic> mimics_;
   double period_ = 0;  ///< s, see interpolate()
   bool stands_still_ = false;

@@ -60,8 +60,8 @@ struct Overlap {
 /// State of a robot, in and out.
 struct RobotState {
   MotionType motion_type = MotionType::dynamic;
-  Pose pose;                       ///< of the base
-  Twist twist;                     ///< of the base, at its origin
+  Pose pose;                       ///< pose of the base
+  Twist twist;                     ///< twist of the base, at its origin
   std::vector<JointState> joints;  ///< one per body
   std::vector<Wrench> external;    ///< in: one per body, at the body's origin, world axes
   std::vector<Wrench> contact;     ///< out: wrench of the world's contacts, one per loaded link, at its body's origin

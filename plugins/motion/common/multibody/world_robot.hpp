@@ -109,7 +109,7 @@ class WorldRobot {
   std::vector<Joint> joints_;                                    ///< one per body
   MovedInertias moved_inertias_;                                 ///< when some joint follows positions
   bool has_position_drives_ = false, has_speed_limits_ = false;  ///< speed limits: of joints in mode effort
-  std::vector<double> positions_;                                ///< of joints, one per body
+  std::vector<double> positions_;                                ///< joint positions, one per body
   ListOut<ContactWrench> contacts_;
   std::vector<LinkWrenches> wrenches_;                 ///< one per loaded link
   bool tells_applied_ = false;                         ///< `applied` of some of them is read

@@ -55,10 +55,10 @@ struct ImplicitDrive {
   double effort(double end_velocity) const { return damping * (velocity - end_velocity); }
 };
 
-/// The drive's effort with position and velocity of the end of the step, q' = q + v' dt, which no gains make unstable:
+/// Returns the drive with the effort from position and velocity at the end of the step, q' = q + v' dt. It is stable
+/// for all gains:
 ///     stiffness (target - q - v' dt) + damping (target velocity - v').
-/// In terms of a constraint that is ERP = dt kp / (dt kp + kd) and CFM = 1 / (dt kp + kd) (ODE manual, 3.8).
-/// `error`: target - q.
+/// As a constraint it has ERP = dt kp / (dt kp + kd) and CFM = 1 / (dt kp + kd) (ODE manual, 3.8). `error`: target - q.
 ImplicitDrive implicit_drive(const PdGains& gains, double error, double target_velocity, double dt);
 
 /// Returns one drive per link; only those of joints in mode `position` count. Throws Error for names that match no
