@@ -33,9 +33,9 @@ class Mjcf {
   /// Returns the name of a body's geom. `number`: counts only shapes that become geoms.
   static std::string geom_name(const std::string& body, std::size_t number);
 
-  /// Adds a body at rest. Planes and heightmaps belong to the world's body. When only a few geoms move, all other
-  /// shapes do, too, and MuJoCo tests each against the moving geoms. When more geoms move, each object is a body, which
-  /// MuJoCo sorts.
+  /// Adds a body at rest. Planes and heightmaps belong to the world's body. When only a few geoms move, other shapes
+  /// belong to it, too, and MuJoCo tests each against the moving geoms. When more geoms move, each object is a body of
+  /// its own, and MuJoCo sorts the bodies.
   void add_static_body(const multibody::ExternalBody& body, std::size_t owner);
   /// Adds a body that is posed from outside (mocap).
   void add_kinematic_body(const multibody::ExternalBody& body, std::size_t owner);

@@ -23,7 +23,7 @@ class ModelRobot {
   void find_indices(mjModel& m);
   /// Takes over state, targets and external forces.
   void import(mjModel& m, mjData& d);
-  /// Returns the results of the step.
+  /// Copies the results of the step to the state.
   void export_state(const mjData& d);
   /// Adds the force (N) and torque (N m) of a contact at `point` (m) on one of its bodies in MuJoCo.
   void add_contact(const mjData& d, int body, const Vec3& force, const Vec3& torque, const Vec3& point) const;

@@ -46,7 +46,7 @@ class MujocoRobot {
   void import(mjModel& m, mjData& d, std::span<DofDrive> drives);
   /// Sets external forces. Call it when bodies are in their places.
   void set_forces(mjData& d);
-  /// Returns the results of the step.
+  /// Copies the results of the step to the state.
   void export_state(const mjData& d);
   /// Sets the effort that the row of a joint's drive or friction applied.
   void set_effort(std::size_t number, double effort) { efforts_[number] = effort; }

@@ -6,10 +6,10 @@
 
 namespace muro::ode {
 
-/// Returns the part of the speeds which violate a robot's joints that remains after `iterations` of successive
-/// over-relaxation, as in dWorldQuickStep. It is the root of the energy ratio: 0 when the joints hold, 1 when nothing
-/// is gained, infinite when it diverges. It is measured on bodies at the start with different given velocities.
-/// Contacts do not count. [setup]
+/// Returns the remaining part of the speeds that violate a robot's joints, after `iterations` of successive
+/// over-relaxation as in dWorldQuickStep. It is the root of the energy ratio: 0 when the joints hold, 1 when nothing is
+/// gained, infinite when it diverges. It is measured on bodies at the start with different given velocities. Contacts
+/// do not count. [setup]
 double unsolved_part(const multibody::RobotModel& model, int iterations);
 
 }  // namespace muro::ode

@@ -167,8 +167,8 @@ class Point final : public PerRobotAlgorithm<PointRobot> {
 
   bool follows_terrain() const { return height_ >= 0; }
 
-  /// Sets the base to its height above the ground, or to `height` (m) when there is no ground. Turns `v` (world axes)
-  /// along the slope.
+  /// Sets the base to its height above the ground, or to `height` (m) when there is no ground. Makes `v` (world axes)
+  /// follow the slope.
   void follow_terrain(double height, Pose& pose, Twist& v) const {
     pose.position.z() = height;
     if (!pose.position.allFinite()) return;

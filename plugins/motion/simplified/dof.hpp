@@ -33,8 +33,8 @@ inline double velocity_under(const DofState& s, double force, double inertia, co
   return momentum / (inertia + limits.damping * dt);
 }
 
-/// Advances the state by `dt` (s) under the constant `force` with velocity_under(), without a speed limit. q' = q + (v
-/// + v') dt/2, exact for a constant force. Stops are inelastic.
+/// Advances the state by `dt` (s) under the constant `force` with velocity_under(), without a speed limit. Stops are
+/// inelastic. Position: q' = q + (v + v') dt/2, exact for a constant force.
 inline DofState integrate_force(const DofState& s, double force, double inertia, const JointLimits& limits, double dt) {
   return moved_on(s, velocity_under(s, force, inertia, limits, dt), limits, dt);
 }

@@ -21,7 +21,7 @@ class KinematicJoints {
   KinematicJoints() = default;
   /// `modes`: mode of every link's joint. Joints in mode effort or passive stand still. When `modes` is empty, each
   /// joint follows `joint.position.target` if something writes it, else `joint.velocity.target`; then call
-  /// follow_what_is_written(). `left_out`: links whose joints are not moved here, nor the joints that mimic them;
+  /// follow_what_is_written(). `left_out`: links whose joints, and the joints that mimic them, are not moved here;
   /// empty: none. Throws Error for a joint that starts outside its limits. [setup]
   KinematicJoints(Connector& c, const RobotView& robot, std::span<const DriveMode> modes,
                   const std::vector<bool>& left_out = {}) {
