@@ -17,8 +17,8 @@ namespace muro::simplified {
 /// energy M q'^2 / 2 (composite rigid bodies: Featherstone, Rigid Body Dynamics Algorithms, Section 6.2, the diagonal
 /// of the joint-space inertia matrix). The generalized force Q is the power of all forces on these bodies for q' = 1:
 /// wrenches, gravity, and inertial forces in the frame of the base, which is accelerated by the sum of wrenches. A free
-/// base yields to a joint so that the robot's centre of mass does not move: M loses P^2 / m. P is the momentum for q' =
-/// 1. The angular part is omitted: a swinging arm does not turn the trunk. Velocity terms between joints and
+/// base yields to a joint so that the robot's centre of mass does not move: M loses P^2 / m, where P is the momentum
+/// for q' = 1. The angular part is omitted: a swinging arm does not turn the trunk. Velocity terms between joints and
 /// off-diagonal inertias are omitted.
 class DecoupledDynamics {
  public:

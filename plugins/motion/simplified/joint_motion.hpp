@@ -26,8 +26,8 @@ MURO_INLINE S clamp(S x, S low, S high) {
 }
 constexpr bool is_finite(double limit) { return -JointRange::infinite < limit && limit < JointRange::infinite; }
 
-/// Returns the largest velocity u at the end of a step from which the joint can still stop at `distance`. It solves (v
-/// + u) dt/2 + u^2 / (2 a) = distance. The step begins with `v`; both are towards the goal. Negative when the joint
+/// Returns the largest velocity u at the end of a step from which the joint can still stop at `distance`. The step
+/// begins with `v`; both are towards the goal. It solves (v + u) dt/2 + u^2 / (2 a) = distance. Negative when the joint
 /// must turn back.
 template <class S>
 MURO_INLINE S braking_velocity(S distance, S v, double a, double dt) {
