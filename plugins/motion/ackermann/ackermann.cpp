@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vehicles with steered wheels: their angles give the centre about which the base turns, driven wheels the speed.
-// Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots, 2nd edition, section 3.2.
+// Vehicles with steered wheels. The steering angles give the centre about which the base turns; driven wheels give the
+// speed. Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots, 2nd edition, section 3.2.
 #include "muro/toolkit/contact_stop.hpp"
 #include "muro/toolkit/per_robot.hpp"
 #include "plugins/common/wheels/motion_description.hpp"
@@ -48,7 +48,7 @@ constexpr Description description{
                 feature_joint_speed_limits | feature_mimic_joints | feature_heightmaps,
 };
 
-/// What is kept of a robot.
+/// Data of a robot.
 struct AckermannRobot {
   Out<Pose> pose;
   Out<Twist> twist;
@@ -144,7 +144,7 @@ class Ackermann final : public Motion<PerRobotAlgorithm<AckermannRobot>> {
     return s;
   }
 
-  /// Reads the targets of wheels and steering, and lays out how they are reached in this step.
+  /// Reads the targets of wheels and steering, and plans how this step approaches them.
   void begin_step(const AckermannRobot& r, std::span<VehicleWheel> wheels, std::span<SteeringJoint> steering,
                   double dt) const {
     double sum = 0;
@@ -160,7 +160,7 @@ class Ackermann final : public Motion<PerRobotAlgorithm<AckermannRobot>> {
                   "`joint.velocity.target` and `joint.position.target`");
   }
 
-  /// A wheel of which the ground is looked at below its centre.
+  /// A wheel; the ground is checked below its centre.
   struct StandingWheel {
     std::uint32_t link;
     Vec3 lowest;
@@ -168,7 +168,7 @@ class Ackermann final : public Motion<PerRobotAlgorithm<AckermannRobot>> {
     explicit StandingWheel(const SteeredWheel& w) : link(w.link), lowest(lowest_point(w)), radius(w.radius) {}
   };
 
-  /// Puts the points on which a robot stands below its wheels, as these are steered.
+  /// Places the contact points of a robot below its wheels at their present steering angles.
   void place_contacts(Range contacts, std::span<const VehicleWheel> wheels) {
     if (!terrain_.follows()) return;
     const std::span<ground::ContactPoint> points = terrain_.contacts_of(contacts);
@@ -180,7 +180,7 @@ class Ackermann final : public Motion<PerRobotAlgorithm<AckermannRobot>> {
     }
   }
 
-  /// m/s: no driven wheel rolls faster in this step.
+  /// m/s: upper bound of the rolling speeds of driven wheels in this step.
   static double fastest_along(std::span<const VehicleWheel> wheels) {
     double speed = 0;
     for (const VehicleWheel& w : wheels)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a vehicle goes: closed forms, and wheels that do not slip.
+// Tests of a vehicle's path: closed forms, and wheels that do not slip.
 #include <gtest/gtest.h>
 
 #include "ackermann_testing.hpp"
@@ -61,8 +61,8 @@ TEST(Ackermann, FourWheelsAtAnglesThatFitRollWithoutSlip) {
   }
 }
 
-/// Where a bicycle ends whose steering and wheel go evenly from 0 to `angle` and `speed` (m/s) until `until`, then
-/// stay: the equations of the bicycle by Simpson's rule.
+/// Returns the end of a bicycle's path, from the bicycle's equations by Simpson's rule. Steering and wheel change
+/// evenly from 0 to `angle` and `speed` (m/s) until `angle_until` and `speed_until`, then stay.
 Vec3 bicycle_end(double wheelbase, double angle, double angle_until, double speed, double speed_until,
                  double duration) {
   const auto v = [&](double t) { return speed * std::min(1.0, t / speed_until); };

@@ -16,7 +16,7 @@ inline constexpr double wide_angle = 1.4;
 /// A wheel of a test's vehicle: "NAME_wheel_joint", and "NAME_steering_joint" when it is steered.
 struct WheelSpec {
   std::string name;
-  Vec3 at;  ///< m, of the steering joint, or of the wheel
+  Vec3 at;  ///< m, position of the steering joint, or of an unsteered wheel
   bool steered = false;
   double radius = 0.1;
   Vec3 arm = Vec3::Zero();  ///< m, from the steering joint to the wheel
@@ -24,7 +24,7 @@ struct WheelSpec {
   Vec3 upright = Vec3::UnitZ();
   JointLimits steering{.lower = -wide_angle, .upper = wide_angle};
   JointLimits wheel{};
-  std::string leader{};  ///< of the steering joint
+  std::string leader{};  ///< joint that the steering joint mimics
   double multiplier = 1;
 };
 
@@ -55,7 +55,7 @@ inline RobotTree vehicle_of(
 inline std::vector<WheelSpec> bicycle(double wheelbase) {
   return {{.name = "rear", .at = {0, 0, 0}}, {.name = "front", .at = {wheelbase, 0, 0}, .steered = true}};
 }
-/// Rear wheels driven, front wheels steered about joints `scrub` inside of them.
+/// A car with driven rear wheels and steered front wheels; the steering joints are `scrub` (m) inside of the wheels.
 inline std::vector<WheelSpec> car(double wheelbase, double track, double scrub = 0) {
   std::vector<WheelSpec> wheels;
   for (const double side : {0.5, -0.5}) {
@@ -94,7 +94,7 @@ struct Vehicle : test::Scene {
   Pose& at() { return pose(robot); }
   Twist& moving() { return twist(robot); }
   double yaw() { return yaw_of(at().orientation); }
-  /// m/s of the lowest point of a wheel: 0 when it rolls.
+  /// Returns the velocity (m/s) of the lowest point of a wheel: 0 when it rolls.
   Vec3 slip(const WheelSpec& p) {
     return world().value("car/" + p.name + "_wheel", keys::twist).at(at().orientation * Vec3(0, 0, -p.radius));
   }

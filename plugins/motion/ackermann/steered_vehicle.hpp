@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One vehicle with steered wheels during a step.
+// Motion of one vehicle with steered wheels during a step.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,16 @@
 
 namespace muro::wheels {
 
-/// A joint that steers: it goes to its target at a constant rate and stops there.
+/// A steering joint: it moves to its target at a constant rate and stops there.
 struct SteeringJoint {
   In<double> target;
   Out<double> position, velocity;
   JointLimits limits;
-  double max_rate = 0;  ///< rad/s, of the joint and of the user
+  double max_rate = 0;  ///< rad/s, limit of the joint and of the user
   // of the present step
   double initial = 0, rate = 0;  ///< rad, rad/s
-  double end = 0;                ///< s: when it stops
-  double final = 0;              ///< rad, from then on
+  double end = 0;                ///< s: time when it stops
+  double final = 0;              ///< rad: position after that time
 
   void begin(double dt) {
     const double goal = std::clamp(*target, limits.lower, limits.upper);
@@ -36,7 +36,8 @@ struct SteeringJoint {
     *position = final;
     *velocity = end == dt ? rate : 0;
   }
-  /// In an interval of the step that starts at `start` and in which no joint stops, at `t` in it.
+  /// Returns the rate in an interval of the step that starts at `start` and in which no joint stops; angle_in(): the
+  /// angle at its time `t`.
   double rate_in(double start) const { return end > start ? rate : 0; }
   double angle_in(double start, double t) const { return end > start ? initial + rate * t : final; }
 };
@@ -53,14 +54,14 @@ struct VehicleWheel {
   WheelState state{};       ///< at the present instant
   double rolled_angle = 0;  ///< rad, when not driven
 
-  /// Takes the heading at which the joint that steers it stands at `angle` and turns at `rate`.
+  /// Sets the heading for a steering joint at `angle` that turns at `rate`.
   void steer(double angle, double rate) {
     const double heading = steering.zero_heading + steering.gain * angle;
     const auto [sine, cosine] = elementary::sincos(heading);
     state.sine = sine, state.cosine = cosine;
     state.steering_rate = steering.gain * rate;
   }
-  /// rad/s of its joint when it does not slip along its rolling direction.
+  /// Returns the rate (rad/s) of its joint when it does not slip along its rolling direction.
   double speed_at(const PlanarTwist& v) const {
     return plane.angle_per_metre * plane.longitudinal_velocity(state.sine, state.cosine, v, state.steering_rate);
   }
@@ -72,9 +73,9 @@ class SteeredVehicle {
                  std::span<SteeringJoint> steering)
       : constraints_(constraints), wheels_(wheels), steering_(steering) {}
 
-  /// Moves `pose` on by `dt` (s); returns the velocity at the end. Wheels have turned by `rolled_angle` or their ramps.
-  /// `yaw_rate`: rad/s, so far; says how small the intervals must be. They are no longer than `longest` (s);
-  /// `settle(before, pose)` is called at the end of each.
+  /// Advances `pose` by `dt` (s) and returns the velocity at the end. Wheels have then turned by `rolled_angle` or
+  /// their ramps. `yaw_rate`: rad/s, the present one, from which the size of the intervals follows. They are at most
+  /// `longest` (s) long; `settle(before, pose)` is called at the end of each.
   template <class Settle>
   PlanarTwist move(Pose& pose, double yaw_rate, double dt, double longest, const Settle& settle) {
     PlanarTwist velocity{0, 0, yaw_rate};
@@ -99,7 +100,7 @@ class SteeredVehicle {
     return velocity;
   }
 
-  /// The motion in which all wheels roll at their present headings and speeds.
+  /// Returns the motion in which all wheels roll at their present headings and speeds.
   RollingMotion motion() const {
     return constraints_.motion(
         wheels_.size(), [&](std::size_t i) -> const PlanarWheel& { return wheels_[i].plane; },
@@ -108,7 +109,7 @@ class SteeredVehicle {
   }
 
  private:
-  /// The same at `t` in the interval of the step that starts at `start`.
+  /// Returns the motion at `t` in the interval of the step that starts at `start`.
   RollingMotion motion(double start, double t) {
     set_wheels(start, t);
     return motion();
@@ -125,7 +126,8 @@ class SteeredVehicle {
     }
   }
 
-  /// The wheels keep their headings: the centre of rotation stays, so the path is an arc however they speed up.
+  /// Moves along an arc. The wheels keep their headings and so the centre of rotation stays, whatever the wheels'
+  /// accelerations are.
   PlanarTwist move_on_arc(Pose& pose, double start, double end, bool speeds_up) {
     const double dt = end - start;
     const RollingMotion middle = motion(start, start + 0.5 * dt);
@@ -142,8 +144,8 @@ class SteeredVehicle {
     return last;
   }
 
-  /// Wheels are being steered: short intervals by collocation of order 4, others, cut to at most 0.1 rad of steering
-  /// and 0.5 rad of turning, by that of order 10.
+  /// Moves while wheels are being steered. Short intervals use collocation of order 4. Others are cut to at most 0.1
+  /// rad of steering and 0.5 rad of turning, and use collocation of order 10.
   PlanarTwist move_while_steering(Pose& pose, double yaw_rate, double start, double end) {
     const PlanarTwist last = motion(start, end).velocity;
     double steered = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vehicles with steered wheels on heightmaps.
+// Tests of vehicles with steered wheels on heightmaps.
 #include <gtest/gtest.h>
 
 #include "ackermann_testing.hpp"

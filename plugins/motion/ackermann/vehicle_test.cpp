@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Limits, joints, starts, hand-over, mistakes.
+// Tests of limits, joints, starts, hand-over and errors.
 #include <gtest/gtest.h>
 
 #include "ackermann_testing.hpp"

@@ -13,7 +13,7 @@ namespace muro::bullet {
 using BulletMeshes = multibody::MeshShapes<std::shared_ptr<btCollisionShape>>;
 
 std::shared_ptr<btCollisionShape> convex_hull_shape(const mesh::Hull& hull);
-/// The triangles as they are; for bodies that do not move.
+/// Returns a shape of the triangles themselves, for bodies that do not move.
 std::shared_ptr<btCollisionShape> triangle_mesh_shape(const mesh::Mesh& mesh);
 
 }  // namespace muro::bullet

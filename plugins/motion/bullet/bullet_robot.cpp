@@ -18,7 +18,7 @@ namespace {
 constexpr double unbounded = 1e30;
 constexpr double fast_rotation = 0.05;  ///< rad in a step
 
-/// Principal moments and axes of a tensor.
+/// Returns the principal moments and axes of a tensor.
 std::pair<Vec3, Quat> principal(const Mat3& tensor) {
   const Mat3 off_diagonal = tensor - Mat3(tensor.diagonal().asDiagonal());
   if (off_diagonal.cwiseAbs().maxCoeff() <= 1e-14 * tensor.diagonal().maxCoeff())
@@ -29,7 +29,8 @@ std::pair<Vec3, Quat> principal(const Mat3& tensor) {
   return {solver.eigenvalues(), Quat(axes)};
 }
 
-/// Turns about an axis of symmetry that is held by the base: its turning changes nothing but its own momentum.
+/// Whether a body is a wheel: it turns about an axis of symmetry that the base holds, so turning changes only its own
+/// momentum.
 bool is_wheel(const RigidBody& body) {
   const Inertia& i = body.inertia;
   const Vec3 offset = i.com - body.axis * body.axis.dot(i.com);
@@ -100,8 +101,8 @@ void BulletRobot::prepare(const Vec3& gravity, double dt, ArticulatedBodyScratch
   find_inverse_inertia(dt);
 }
 
-/// v' = v + dt a((v + v') / 2) by so many fixed-point iterations: what depends on velocities (Coriolis, gyroscopic) at
-/// the beginning of the step alone would feed nutation until it bursts.
+/// Solves v' = v + dt a((v + v') / 2) by fixed-point iterations. If velocity terms (Coriolis, gyroscopic) used the
+/// start of the step only, nutation would grow without end.
 void BulletRobot::find_free_velocity(double dt, ArticulatedBodyScratch& scratch) {
   const Eigen::Index n = velocity_.size();
   position_velocity_ = Eigen::Map<const Vector>(bullet_.getVelocityVector(), n);  // at the beginning
@@ -163,9 +164,9 @@ void BulletRobot::add_forces(const Vec3& gravity, double dt) {
   if (body_states_.size() == 1 && !model_->fixed_base) add_gyroscopic_torque(dt);
 }
 
-/// A free body keeps its angular momentum: midpoint rule (Hairer, Lubich, Wanner, Geometric Numerical Integration,
-/// VII.5). Bullet is given the change of spin as a torque, and finish() adds the rotation that the spin at the end of
-/// the step alone would miss.
+/// Keeps the angular momentum of a free body by the midpoint rule (Hairer, Lubich, Wanner, Geometric Numerical
+/// Integration, VII.5). Bullet gets the change of spin as a torque, and finish() adds the rotation that the spin at the
+/// end of the step alone would miss.
 void BulletRobot::add_gyroscopic_torque(double dt) {
   const Vec3 spin = body_states_[0].twist.angular;
   if (is_spherical(principal_inertias_[0].moments) || spin.isZero(0)) return;
@@ -214,8 +215,8 @@ void BulletRobot::find_inverse_inertia(double dt) {
   find_inertia(dt);
   const Eigen::Index free = inertia_.rows(), all = inverse_inertia_.rows();
   invert_positive_definite(inertia_.data(), int(free), inverse_inertia_.data() + (all - free) * (all + 1), int(all));
-  // The bodies have moved on without damping, which acts on velocities at the end of the step (implicit Euler), and
-  // without the rotors of drives, which resist the change of velocity.
+  // So far the bodies have moved without damping, which acts on velocities at the end of the step (implicit Euler), and
+  // without the rotors of drives, which resist a change of velocity.
   for (std::size_t i = 1; i < body_states_.size(); ++i) {
     const JointLimits& limits = model_->bodies[i].limits;
     const auto k = Eigen::Index(5 + i);
@@ -229,8 +230,8 @@ void BulletRobot::find_inverse_inertia(double dt) {
   couple_mimic_joints();
 }
 
-/// Takes the motions that mimic joints do not allow out of the velocities and out of the inverse inertia, one
-/// constraint after the other: whatever impulses come then, they keep all of them.
+/// Removes the motions that mimic joints do not allow from the velocities and the inverse inertia, one constraint after
+/// the other. Then all later impulses keep the constraints.
 void BulletRobot::couple_mimic_joints() {
   for (std::size_t i = 1; i < body_states_.size(); ++i) {
     const RigidBody& body = model_->bodies[i];
@@ -245,8 +246,8 @@ void BulletRobot::couple_mimic_joints() {
   }
 }
 
-/// Composite-rigid-body algorithm (Featherstone, Rigid Body Dynamics Algorithms, 6.2), all about the base's centre of
-/// mass, with the armature and dt times the damping of joints added.
+/// Computes the inertia matrix by the composite-rigid-body algorithm (Featherstone, Rigid Body Dynamics Algorithms,
+/// 6.2) about the base's centre of mass. Adds the armature and dt times the damping of joints.
 void BulletRobot::find_inertia(double dt) {
   for (std::size_t i = 0; i < body_states_.size(); ++i) {
     const Inertia& inertia = model_->bodies[i].inertia;

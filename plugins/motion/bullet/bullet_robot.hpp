@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot in Bullet: a btMultiBody, with what its contacts and drives need to know of it.
+// A robot in Bullet: a btMultiBody, with the data of it that contacts and drives need.
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
@@ -9,18 +9,18 @@
 
 namespace muro::bullet {
 
-/// What Bullet's articulated-body algorithm works in.
+/// Scratch memory of Bullet's articulated-body algorithm.
 struct ArticulatedBodyScratch {
   btAlignedObjectArray<btScalar> numbers;
   btAlignedObjectArray<btVector3> vectors;
   btAlignedObjectArray<btMatrix3x3> matrices;
 };
 
-/// Generalised velocities are Bullet's: spin of the base, velocity of its centre of mass (world axes), then those of
-/// the joints, body i's at 5 + i.
+/// A robot of a world. Generalised velocities are in Bullet's order: spin of the base, velocity of its centre of mass
+/// (world axes), then joint velocities, that of body i at index 5 + i.
 ///
-/// A step begins from RobotState alone: prepare() sets the btMultiBody to it, moves it on as if nothing touched it, and
-/// finds the inverse of its inertia; the solver changes velocity(); finish() carries the state on.
+/// A step begins from RobotState alone. prepare() copies it to the btMultiBody, advances it as if nothing touched it,
+/// and finds the inverse of its inertia. The solver changes velocity(). finish() advances the state.
 class BulletRobot {
  public:
   using Vector = Eigen::VectorXd;
@@ -28,12 +28,12 @@ class BulletRobot {
 
   BulletRobot(const multibody::RobotModel& model, multibody::RobotState& state);
 
-  /// Finds the states of its bodies.
+  /// Computes the states of its bodies.
   void update_kinematics() { forward_kinematics(*model_, *state_, body_states_); }
-  /// Finds velocities without contacts and drives at the end of a step of `dt` (s), and the inverse of the inertia.
+  /// Computes velocities without contacts and drives at the end of a step of `dt` (s), and the inverse of the inertia.
   void prepare(const Vec3& gravity, double dt, ArticulatedBodyScratch& scratch);
-  /// Carries the state on with the velocities that the solver has left: positions by the new velocities, but a robot
-  /// that nothing has touched takes the exact path of a fall.
+  /// Advances the state with the velocities from the solver. Positions use the new velocities, but a robot without
+  /// contacts takes the exact path of a fall.
   void finish(const Vec3& gravity, double dt);
   void set_has_contact() { has_contact_ = true; }
 
@@ -44,16 +44,16 @@ class BulletRobot {
   const multibody::BodyState& body_state(std::size_t i) const { return body_states_[i]; }
   btMultiBody& bullet_body() { return bullet_; }
 
-  int size() const { return int(velocity_.size()); }  ///< of generalised vectors
+  int size() const { return int(velocity_.size()); }  ///< size of generalised vectors
   double* velocity() { return velocity_.data(); }
-  double* position_velocity() { return position_velocity_.data(); }  ///< moves positions in this step
+  double* position_velocity() { return position_velocity_.data(); }  ///< velocity that moves positions in this step
   const double* velocity() const { return velocity_.data(); }
-  /// Of the joint-space inertia matrix, armature and damping of joints included: the velocities that unit impulses
-  /// make, mimic joints held to their leaders.
+  /// Inverse of the joint-space inertia matrix, with armature and damping of joints and with mimic joints coupled to
+  /// their leaders. Its columns are the velocities from unit impulses.
   const Eigen::MatrixXd& inverse_inertia() const { return inverse_inertia_; }
   /// Adds `sign` times the generalised force of a wrench on a body to `row`: a row of the Jacobian.
   void add_jacobian(std::size_t body, const SpatialForce& wrench, double sign, double* row) const;
-  /// A force along `direction` at `point` (m, world), for add_jacobian().
+  /// Returns a force along `direction` at `point` (m, world), for add_jacobian().
   SpatialForce wrench(const Vec3& point, const Vec3& direction) const {
     SpatialForce w;
     w << (point - base_com_).cross(direction), direction;
@@ -62,7 +62,7 @@ class BulletRobot {
 
  private:
   struct PrincipalInertia {
-    Quat axes;     ///< of the principal moments, in the frame of the body
+    Quat axes;     ///< axes of the principal moments, in the frame of the body
     Vec3 moments;  ///< kg m^2
   };
 
@@ -87,7 +87,7 @@ class BulletRobot {
   bool has_contact_ = false;
   bool has_only_wheels_ = true;
   Quat rotation_correction_ = Quat::Identity();
-  std::vector<SpatialForce> motion_subspaces_;  ///< one per body: motion of the joint, spin and velocity at `base_com_`
+  std::vector<SpatialForce> motion_subspaces_;  ///< one per body: motion by its joint, spin and velocity at `base_com_`
   struct Composite {
     double mass = 0;
     Vec3 first_moment = Vec3::Zero();  ///< kg m, about `base_com_`
@@ -95,8 +95,8 @@ class BulletRobot {
   };
   std::vector<Composite> composites_;
   Vector velocity_, position_velocity_;
-  Vector damping_impulses_;  ///< N s or N m s in a step, of damping and rotors, one per joint
-  Vector coupling_;          ///< the velocities that a unit impulse of a mimic joint's constraint makes
+  Vector damping_impulses_;  ///< N s or N m s in a step, by damping and rotors, one per joint
+  Vector coupling_;          ///< velocities from a unit impulse of a mimic joint's constraint
   Eigen::MatrixXd inertia_, inverse_inertia_;
 };
 

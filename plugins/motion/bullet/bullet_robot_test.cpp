@@ -23,7 +23,7 @@ RigidBody body(std::int32_t parent, JointKind joint, const Pose& origin, const V
   return b;
 }
 
-/// A base with two arms, one of them of two links, one of which slides; nothing is aligned with anything.
+/// A base with two arms, one of them with two links, one joint prismatic; no axes are aligned.
 RobotModel crooked() {
   const Inertia odd{
       .mass = 2, .com = {0.1, -0.05, 0.2}, .ixx = 0.3, .iyy = 0.4, .izz = 0.5, .ixy = 0.05, .ixz = -0.02, .iyz = 0.1};
@@ -76,7 +76,7 @@ TEST(ARobotInBullet, HasRowsThatAreTheVelocitiesOfItsPoints) {
   BulletRobot r(m, s);
   ArticulatedBodyScratch scratch;
   r.update_kinematics();
-  r.prepare(Vec3::Zero(), 1e-9, scratch);  // velocities stay what they are
+  r.prepare(Vec3::Zero(), 1e-9, scratch);  // velocities do not change
   const Vec3 point(0.7, 1.2, 2.9), direction = Vec3(1, -2, 0.5).normalized();
   for (std::size_t i = 0; i < m.bodies.size(); ++i) {
     std::vector<double> row(std::size_t(r.size()));

@@ -6,15 +6,15 @@
 
 namespace muro::bullet {
 
-/// What a world of Bullet is set to.
+/// Settings of a world of Bullet.
 struct BulletSettings {
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
   FrictionRule friction_rule = FrictionRule::min;
-  int iterations = 10;          ///< of the solver
-  double erp = 0.2;             ///< part of a depth or of a passed limit that a step takes back
+  int iterations = 10;          ///< iterations of the solver
+  double erp = 0.2;             ///< part of a depth or of an exceeded limit that a step corrects
   double cfm = 0;               ///< s/kg: softness of contacts
-  double slop = 1e-4;           ///< m: depth that is not taken back
-  double correcting_speed = 1;  ///< m/s: bodies that overlap are parted no faster
+  double slop = 1e-4;           ///< m: depth that is not corrected
+  double correcting_speed = 1;  ///< m/s: largest speed at which overlapping bodies are separated
   double bounce_speed = 0.02;   ///< m/s: slower impacts do not rebound
   double warm_start = 1;        ///< part of the last step's impulses that the solver begins with
 };

@@ -11,11 +11,11 @@ using multibody::DriveTarget, multibody::JointState;
 namespace {
 
 constexpr double unbounded = 1e30;
-constexpr double min_split_velocity = 2e-3;  ///< m/s: slower corrections, as softness brings, are left in velocities
-constexpr double softness = 0.01;            ///< see add(): of the inverse effective mass
-constexpr double deep_softness = 0.1;        ///< likewise
-constexpr double min_slip = 1e-3;            ///< m/s: below, friction has no direction of its own
-constexpr double near_limit = 0.02;          ///< rad or m: joints that are nearer to a limit have a row for it
+constexpr double min_split_velocity = 2e-3;  ///< m/s: slower corrections, e.g. by softness, stay in velocities
+constexpr double softness = 0.01;            ///< part of the inverse effective mass, see add()
+constexpr double deep_softness = 0.1;        ///< part of the inverse effective mass, for deep overlaps
+constexpr double min_slip = 1e-3;            ///< m/s: a slower slip gives friction no direction
+constexpr double near_limit = 0.02;          ///< rad or m: joints nearer to a limit have a row for it
 
 }  // namespace
 
@@ -170,9 +170,9 @@ BulletSolver::ConstraintRow BulletSolver::pair_row(const SolverContact& c, Bulle
   return row;
 }
 
-/// Velocity along the normal that a contact must leave. Bodies that rebound touch in the step that begins or ends
-/// nearest to the instant of impact, and part with the energy that Newton's law leaves of that of their
-/// approach; others touch where their surfaces, less the slop, do.
+/// Returns the velocity along the normal after the contact. Rebounding bodies touch in the step that begins or ends
+/// nearest to the instant of impact. They separate with the part of their approach energy that Newton's law leaves.
+/// Other bodies touch when their surfaces, less the slop, touch.
 double BulletSolver::target_velocity(const SolverContact& c, double speed, double restitution, bool& is_active,
                                      bool& is_rebound) const {
   is_active = true;
@@ -186,10 +186,11 @@ double BulletSolver::target_velocity(const SolverContact& c, double speed, doubl
   return std::max(0.0, std::sqrt(std::max(0.0, drop * drop + in - 2 * pull * c.point.gap)) - drop);
 }
 
-/// Points of one line or face are alike soft, so that they share its load as the pressure over it does.
+/// Adds the contacts of a pair. Points of one line or face get the same softness, so that they share its load like a
+/// pressure.
 void BulletSolver::add(std::span<SolverContact> contacts, BulletRobot& a, BulletRobot* b,
                        const multibody::BodyState& other) {
-  Twist velocities[NarrowPhase::max_points];  // of the other at the points
+  Twist velocities[NarrowPhase::max_points];  // of the other body at the points
   ConstraintRow normals[NarrowPhase::max_points];
   double sum = 0;
   int touching = 0;
@@ -219,10 +220,10 @@ void BulletSolver::add(SolverContact& c, const ConstraintRow& normal, double inv
   c.tangent = speed > min_slip ? Vec3(slip / speed) : c.point.normal.unitOrthogonal();
   c.bitangent = c.point.normal.cross(c.tangent);
   c.row = m_multiBodyNormalContactConstraints.size();
-  // What is deep in a body is often pushed from several sides at once, which no impulses can fulfil: they would grow
-  // from step to step. Softness, and to begin at none, bounds them; it takes a thousandth of g from the speed. Where
-  // many points share a load, any shares that add up would do, and the solver would keep those that it began with, with
-  // all of the load, and the friction that it bears, on one corner. Softness draws them to those of least work.
+  // A body deep inside another is often pushed from several sides at once. No impulses can fulfil that, and they would
+  // grow from step to step. Softness and a start at zero limit them; this takes a thousandth of g from the speed. When
+  // many points share a load, many distributions are valid, and the solver would keep the first one, for example all
+  // load and friction on one corner. Softness leads to the distribution of least work.
   const bool is_deep = !is_rebound && velocity >= settings_.correcting_speed;
   const Vec3 initial_impulse = (is_deep ? 0 : settings_.warm_start) * c.impulse;
   const double part = is_rebound ? 0 : is_deep ? deep_softness : softness;
@@ -235,9 +236,9 @@ void BulletSolver::add(SolverContact& c, const ConstraintRow& normal, double inv
   add_resistances(c, a, b, other_velocity.angular, surface);
 }
 
-/// In the middle of the cell of the contact. Where the patch spins, the ends of the cell move against its middle, and
-/// as long as they move faster than that, the cell does as much less than its limit as its middle is slower: rows that
-/// give way by that.
+/// Adds friction in the middle of the contact's cell. When the patch spins, the ends of the cell move relative to its
+/// middle. While the middle is slower than the ends, friction is reduced by the ratio of these speeds: the rows are
+/// softened for this.
 void BulletSolver::add_friction(const SolverContact& c, BulletRobot& a, BulletRobot* b, const Twist& other_velocity,
                                 double friction, const Vec3& initial_impulse) {
   const double limit = friction * c.impulse.dot(c.point.normal) / dt_, ends = c.speed_of_ends();
@@ -252,8 +253,8 @@ void BulletSolver::add_friction(const SolverContact& c, BulletRobot& a, BulletRo
   }
 }
 
-/// Bullet's rows of spinning and rolling friction: torques against turning about the normal and about what is at right
-/// angles to it, bounded by a length times the normal impulse; the latter on a cone.
+/// Adds Bullet's rows of spinning and rolling friction. They are torques against turning about the normal and about two
+/// axes perpendicular to it. Their limit is a length times the normal impulse, on a cone for rolling.
 void BulletSolver::add_resistances(SolverContact& c, BulletRobot& a, BulletRobot* b, const Vec3& other_spin,
                                    const Surface& surface) {
   const auto add_torque = [&](btMultiBodyConstraintArray& rows, const Vec3& axis, double lever) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is particular to motion.bullet; what all motions owe is in tests/conformance.
+// Tests of motion.bullet only. Tests for all motions are in tests/conformance.
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/rotations.hpp"
@@ -77,7 +77,7 @@ TEST(AStackOfTenBoxes, StandsUnderTwiceItsWeight) {
   EXPECT_LT(t.pose(*boxes[9]).position.head<2>().norm(), 0.01);
 }
 
-/// A disc (1 kg, radius 0.1 m) on an axle of 0.1 m that is held at its end, let go level with the spin `spin`.
+/// A disc (1 kg, radius 0.1 m) on an axle of 0.1 m that is held at its end, released level with the spin `spin`.
 TEST(ATop, NodsWithoutGainingEnergy) {
   for (const double spin : {20.0, 100.0, 200.0}) {
     Drop t;

@@ -10,7 +10,7 @@ using multibody::BodyState, multibody::MotionType;
 namespace {
 
 constexpr double half_margin = 0.5 * NarrowPhase::margin;
-constexpr double fat_aabb_margin = 0.5;  ///< m: scenery is looked up anew when a robot has moved so far
+constexpr double fat_aabb_margin = 0.5;  ///< m: after this distance a robot finds nearby scenery anew
 
 }  // namespace
 
@@ -126,7 +126,7 @@ void BulletWorld::find_pairs() {
     }
     if (robots_[i].model().self_collision) add_self_collision_pairs(o, robots_[i]);
   }
-  // by the smallest x: insertion, for the order hardly changes from step to step
+  // sort by the smallest x, by insertion because the order hardly changes from step to step
   for (std::size_t i = 1; i < order_.size(); ++i)
     for (std::size_t k = i; k > 0 && objects_[order_[k]].aabb_min.x() < objects_[order_[k - 1]].aabb_min.x(); --k)
       std::swap(order_[k], order_[k - 1]);
@@ -287,7 +287,7 @@ void BulletWorld::solve(std::span<const Island> island, double dt) {
   }
 }
 
-/// To both robots, as far as the world moves them.
+/// Reports a contact to both robots, if the world moves them.
 void BulletWorld::tell_contact(const SolverContact& contact, const Vec3& force, const Vec3& torque) {
   const ContactPoint& p = contact.point;
   if (p.gap > 0 && force.isZero(0)) return;

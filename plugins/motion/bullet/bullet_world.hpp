@@ -10,11 +10,11 @@
 
 namespace muro::bullet {
 
-/// A world made of Bullet's components: its shapes and narrow phase, its articulated bodies, its solver.
+/// A world made of Bullet's components: its shapes, its narrow phase, its articulated bodies and its solver.
 ///
-/// A step follows from the state of the robots alone: bodies are set anew in each, contacts are found anew, in the
-/// order of pairs of shapes, and the solver begins with the impulses that the robots remember. Robots that touch each
-/// other are solved together, all others alone.
+/// A step depends only on the state of the robots. In each step bodies are set anew, contacts are found anew in the
+/// order of pairs of shapes, and the solver begins with the impulses that the robots keep. Robots that touch each other
+/// are solved together, all others alone.
 class BulletWorld final : public multibody::World {
  public:
   BulletWorld(const BulletSettings& settings, std::shared_ptr<const BulletMeshes> meshes);
@@ -29,9 +29,9 @@ class BulletWorld final : public multibody::World {
   /// A robot or kinematic body with the colliders `first` to `first + count`.
   struct CollisionObject {
     std::uint32_t first = 0, count = 0;
-    Vec3 aabb_min = Vec3::Zero(), aabb_max = Vec3::Zero();  ///< m: around all
+    Vec3 aabb_min = Vec3::Zero(), aabb_max = Vec3::Zero();  ///< m: box around all
     bool enabled = false, dynamic = false;
-    Vec3 fat_aabb_min = Vec3::Zero(), fat_aabb_max = Vec3::Constant(-1);  ///< m: in which `nearby_scenery` holds
+    Vec3 fat_aabb_min = Vec3::Zero(), fat_aabb_max = Vec3::Constant(-1);  ///< m: box in which `nearby_scenery` is valid
     std::vector<std::uint32_t> nearby_scenery;
   };
   struct Pair {
@@ -48,7 +48,7 @@ class BulletWorld final : public multibody::World {
   void add_pairs_between(const CollisionObject& a, const CollisionObject& b);
   void add_self_collision_pairs(const CollisionObject& object, const BulletRobot& robot);
   void find_contacts(double dt);
-  /// Of contacts of two colliders: friction is spread over the line or face that touches.
+  /// Finds the cells of the contacts of two colliders: friction is spread over the touching line or face.
   static void find_cells(std::span<SolverContact> pair);
   multibody::BodyState state_of(const Collider& c) const;
   void find_islands();
@@ -71,7 +71,7 @@ class BulletWorld final : public multibody::World {
   ArticulatedBodyScratch scratch_;
   std::vector<Pair> pairs_;
   std::vector<SolverContact> contacts_;
-  std::vector<std::uint32_t> first_contact_;  ///< of each robot, as `a`; one more than there are robots
+  std::vector<std::uint32_t> first_contact_;  ///< first contact of each robot as `a`; one more entry than robots
   std::vector<Island> islands_;
   std::vector<std::uint32_t> roots_;
 };

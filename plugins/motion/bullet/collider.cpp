@@ -12,8 +12,8 @@ namespace muro::bullet {
 
 namespace {
 
-/// Bullet shrinks a box or cylinder by its margin and rounds what is left by the same: faces stay where they are,
-/// edges get this radius.
+/// Returns the margin of a box or cylinder. Bullet shrinks the shape by the margin and rounds it by the same: faces
+/// keep their place, edges get this radius.
 double margin_of(const Vec3& half) { return std::min(1e-3, 0.1 * half.minCoeff()); }
 
 std::shared_ptr<btCollisionShape> make_shape(const Shape& s, const BulletMeshes& meshes, bool moves) {

@@ -7,9 +7,9 @@ namespace muro::bullet {
 
 namespace {
 
-constexpr double max_distance = 0.02;  ///< m: a point that has moved farther in a step is another one
+constexpr double max_distance = 0.02;  ///< m: a point that is farther away than this is another point
 
-constexpr double taken = -1;  ///< stands for the other collider of a point that has been matched
+constexpr double taken = -1;  ///< replaces the number of the other collider when a point has been matched
 
 std::size_t shape_count(const multibody::RobotModel& model) {
   std::size_t n = 0;

@@ -6,10 +6,10 @@
 namespace muro::bullet {
 
 /// Inverts a symmetric, positive definite matrix of `n` rows by Cholesky's method. `m`: its lower triangle, column by
-/// column; overwritten. `out`: both triangles, columns `stride` apart. For the sizes of robots this takes a third of
-/// the time of a general solver.
+/// column; overwritten. `out`: both triangles, columns `stride` apart. For matrices of the size of robots it takes a
+/// third of the time of a general solver.
 inline void invert_positive_definite(double* m, int n, double* out, int stride) {
-  // m becomes the inverse of Cholesky's factor, column by column
+  // m becomes the inverse of the Cholesky factor, column by column
   for (int k = 0; k < n; ++k) {
     double* column = m + k * n;
     const double pivot = std::sqrt(column[k]);
@@ -22,7 +22,7 @@ inline void invert_positive_definite(double* m, int n, double* out, int stride) 
     }
   }
   for (int k = 0; k < n; ++k) {
-    double* column = m + k * n;  // of the factor; becomes that of its inverse, from the top down
+    double* column = m + k * n;  // column of the factor; becomes that of its inverse, from the top down
     column[k] = 1 / column[k];
     for (int i = k + 1; i < n; ++i) column[i] *= -column[k];
     for (int j = k + 1; j < n; ++j) {

@@ -15,15 +15,15 @@ namespace muro::bullet {
 
 namespace {
 
-/// GJK gives one point of a pair. For shapes with flat faces, the smaller one is turned a little in so many directions
-/// about the normal, to find others (van den Bergen).
+/// Number of directions about the normal in which the smaller shape is turned a little to find more points when shapes
+/// have flat faces (van den Bergen). GJK alone gives one point per pair.
 constexpr int perturbation_count = 4;
-constexpr double min_cosine = 0.999;  ///< cosine: a normal this near to that of a box's face is taken for it
+constexpr double min_cosine = 0.999;  ///< cosine: a normal this near to that of a box's face counts as equal
 
 bool is_round(const Collider& c) { return c.kind == ShapeKind::sphere; }
 bool has_corners(const Collider& c) { return c.kind == ShapeKind::box || c.kind == ShapeKind::mesh; }
 
-/// A face of a box, and what of another shape is over it.
+/// A face of a box; finds the parts of another shape over it.
 class BoxFace {
  public:
   BoxFace(const Collider& box, int axis, double sign) {
@@ -43,7 +43,7 @@ class BoxFace {
     const Vec3 from = p.position - middle_;
     return std::abs(from.dot(u_)) <= half_u_ && std::abs(from.dot(v_)) <= half_v_;
   }
-  /// The ends of the segment of the line from `a` to `b` that is over the face; their number.
+  /// Finds the ends of the part of the line from `a` to `b` that is over the face; returns their number.
   int clip(const ContactPoint& a, const ContactPoint& b, ContactPoint* out) const {
     const Vec3 from = a.position - middle_, span = b.position - a.position;
     double begin = 0, end = 1;
@@ -72,8 +72,8 @@ class BoxFace {
   btTransform plane_;
 };
 
-/// Where `other` touches the face of `box` that `outward` (world) points out of: as on a plane, within the face.
-/// Returns -1 where it is no face that touches.
+/// Finds where `other` touches the face of `box` with the normal `outward` (world), like a plane within the face.
+/// Returns -1 when no face touches.
 int face_contacts(const Collider& box, const Collider& other, const Vec3& outward, ContactPoint* out) {
   for (int axis = 0; axis < 3; ++axis) {
     const double along = outward.dot(from_bullet(box.pose.getBasis().getColumn(axis)));

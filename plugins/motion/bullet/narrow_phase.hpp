@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where two shapes touch.
+// The points in which two shapes touch.
 #pragma once
 
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
@@ -13,24 +13,25 @@
 namespace muro::bullet {
 
 struct ContactPoint {
-  Vec3 position;   ///< m, world: half way between the two surfaces
-  Vec3 normal;     ///< unit, world: the direction in which the first is pushed
+  Vec3 position;   ///< m, world: halfway between the two surfaces
+  Vec3 normal;     ///< unit, world: direction in which the first shape is pushed
   double gap = 0;  ///< m; negative where they overlap
 };
 
-/// Bullet's algorithms for pairs of shapes, asked anew each time: nothing is carried from step to step.
+/// Bullet's algorithms for pairs of shapes, run anew each time: nothing is kept from step to step.
 class NarrowPhase {
  public:
-  static constexpr int max_points = 8;    ///< of a pair
+  static constexpr int max_points = 8;    ///< points of a pair
   static constexpr double margin = 0.02;  ///< m: surfaces farther apart are not in contact
 
   NarrowPhase();
-  /// Points in which `a` is within `margin` of `b`; returns their number. Neither moves; `a` is no plane.
+  /// Finds the points in which `a` is within `margin` of `b`, and returns their number. Neither shape moves; `a` is no
+  /// plane.
   int find(const Collider& a, const Collider& b, ContactPoint* out);
 
  private:
-  /// By Bullet's algorithm for the pair. `perturbations`: in how many directions the smaller shape is turned a little
-  /// to find more points.
+  /// Runs Bullet's algorithm for the pair. `perturbations`: number of directions in which the smaller shape is turned a
+  /// little to find more points.
   int collide(const Collider& a, const Collider& b, int perturbations, ContactPoint* out);
   static int read(const btPersistentManifold& manifold, double sign, ContactPoint* out);
 
@@ -38,7 +39,7 @@ class NarrowPhase {
   btCollisionDispatcher dispatcher_{&configuration_};
   btDispatcherInfo info_;
   btGjkEpaPenetrationDepthSolver depth_solver_;
-  btCollisionObject first_, second_;  ///< stand for the bodies: Bullet wants to tell them apart
+  btCollisionObject first_, second_;  ///< represent the bodies: Bullet must distinguish them
   btPersistentManifold manifold_;
   btManifoldArray manifolds_;
 };

@@ -18,13 +18,13 @@ class PlaneContactCollector {
         out_(out) {}
 
   const Vec3& normal() const { return normal_; }
-  /// A point of the surface of the other shape.
+  /// Adds a point of the surface of the other shape.
   void add(const Vec3& p) {
     const double gap = normal_.dot(p) - offset_;
     if (gap <= NarrowPhase::margin) insert({p - 0.5 * gap * normal_, normal_, gap});
   }
   int count() const { return count_; }
-  /// At most so many are kept, the lowest.
+  /// Sets the number of points that are kept: the lowest ones.
   void set_max_points(int count) { max_points_ = count; }
 
  private:
@@ -44,7 +44,7 @@ class PlaneContactCollector {
   int count_ = 0, max_points_ = NarrowPhase::max_points;
 };
 
-/// rad: a cylinder that leans less stands on points of its rim that turn with it.
+/// rad: a cylinder with less tilt stands on points of its rim that turn with it.
 constexpr double max_lean = 1e-3;
 
 void add_cylinder(const Collider& a, const Vec3& centre, PlaneContactCollector& plane) {

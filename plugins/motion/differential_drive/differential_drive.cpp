@@ -27,8 +27,8 @@ constexpr Description description{
     .features = wheel_motion_features,
 };
 
-/// Velocity of the base when one side moves over the ground at 1 m/s and the other stands still. The base turns
-/// about a point on the line through the wheels' centres, wherever on the robot its own origin is.
+/// Returns the velocity of the base when one side moves over the ground at 1 m/s and the other stands still. The base
+/// turns about a point on the line through the wheels' centres, whatever its own origin is.
 PlanarTwist velocity_by_side(const SideWheels& wheels, bool is_left) {
   const double yaw_rate = (is_left ? -1 : 1) / wheels.track;
   return {0.5 + yaw_rate * wheels.middle.y(), -yaw_rate * wheels.middle.x(), yaw_rate};

@@ -60,7 +60,7 @@ TEST(DifferentialDrive, FollowsAnExactArcForAnyStepSize) {
   }
 }
 
-/// End of the reference run whose wheels speed up by `a` rad/s^2, by Simpson's rule.
+/// Returns the end of the reference run with wheels that speed up by `a` rad/s^2, by Simpson's rule.
 Vec3 gradual_start(double a, double duration) {
   const int n = 100000;
   const auto angle = [&](double t, double last) {

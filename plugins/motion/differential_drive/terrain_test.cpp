@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vehicles with wheels on both sides on heightmaps: closed forms of where their wheels are.
+// Tests of vehicles with wheels on both sides on heightmaps: closed forms of the positions of their wheels.
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/rotations.hpp"
@@ -29,7 +29,7 @@ RobotTree four_wheeler() {
   return test::wheeled_robot(wheels);
 }
 
-/// Two wheels and the ball of a caster behind them.
+/// A vehicle with two wheels and the ball of a caster behind them.
 RobotTree two_wheels_and_a_caster() {
   return test::wheeled_robot({{.name = "left", .at = {0, half_width, 0}, .radius = radius},
                               {.name = "right", .at = {0, -half_width, 0}, .radius = radius}},
@@ -56,7 +56,7 @@ struct OnHills : test::Scene {
     }
     build();
   }
-  /// All wheels of a side have its speed (rad/s).
+  /// Drives all wheels of a side with its speed (rad/s).
   void drive(double left, double right) {
     for (const Link& link : robot.links) {
       if (link.joint != JointKind::revolute) continue;
@@ -101,7 +101,7 @@ TEST(DifferentialDriveOnTerrain, ATiltedHeightmapIsAnInclinedPlaneToo) {
     EXPECT_NEAR((tilted.inverse() * s.lowest(wheel)).z(), 0.5, 1e-9) << wheel.transpose();
 }
 
-/// m: the distance of a point from the curve z = sin(x) / 2.
+/// Returns the distance (m) of a point from the curve z = sin(x) / 2.
 double distance_from_sine(double x, double z) {
   double nearest = 1e9;
   for (double at = x - 0.3; at < x + 0.3; at += 1e-4)
@@ -120,8 +120,8 @@ TEST(DifferentialDriveOnTerrain, WheelsTouchASineHillAndRollAlongIt) {
     EXPECT_NEAR(s.at().position.y(), 0, 1e-9);
     for (const Vec3& wheel : four_places()) {
       const Vec3 axle = s.at() * wheel;
-      // The lowest point of a wheel is square to the base, not to the ground: their normals differ by up to half a
-      // wheelbase times the curvature of 0.5 / m. Sagitta of the cells: 0.16 mm.
+      // The lowest point of a wheel is taken along the normal of the base, not of the ground. These normals differ by
+      // up to half a wheelbase times the curvature of 0.5 / m. Sagitta of the cells: 0.16 mm.
       const double turn = 0.5 * half_length;
       EXPECT_NEAR(distance_from_sine(axle.x(), axle.z()), radius, 0.5 * radius * turn * turn + 2e-4);
     }
@@ -136,7 +136,7 @@ TEST(DifferentialDriveOnTerrain, WheelsTouchASineHillAndRollAlongIt) {
 }
 
 TEST(DifferentialDriveOnTerrain, FourWheelsOnTwistedGroundStandByLeastSquares) {
-  // Opposite corners are equally high: a level base misses each by as much, which no tilt makes less.
+  // Opposite corners are equally high: a level base misses each by the same distance, and no tilt reduces it.
   const Hills hills(8, 16, [](double x, double y) { return 0.5 * x * y; });
   const RobotTree tree = test::wheeled_robot({{.name = "front_left", .at = {0.5, 0.5, 0}},
                                               {.name = "front_right", .at = {0.5, -0.5, 0}},
@@ -157,7 +157,7 @@ TEST(DifferentialDriveOnTerrain, TwistIsTheDerivativeOfPose) {
     const Twist v = s.twist(s.robot);
     s.run_for(1e-4);
     const Twist after = s.twist(s.robot);
-    if ((after.angular - v.angular).norm() > 0.01) continue;  // a point has come to another cell
+    if ((after.angular - v.angular).norm() > 0.01) continue;  // a point has entered another cell
     EXPECT_LT(((s.at().position - before.position) / 1e-4 - v.linear).norm(), 1e-3) << i;
     EXPECT_LT((rotation_vector_of(s.at().orientation * before.orientation.conjugate()) / 1e-4 - v.angular).norm(), 1e-3)
         << i;

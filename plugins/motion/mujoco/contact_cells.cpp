@@ -7,10 +7,10 @@ namespace muro::mujoco {
 
 namespace {
 
-/// The matrices of constraints may be sparse.
+/// An entry of the constraint Jacobian, which may be sparse.
 struct Entry {
   mjtNum* number;
-  mjtNum* transposed;  ///< null where no other matrix has it
+  mjtNum* transposed;  ///< null when there is no transposed matrix
 };
 Entry entry_of(const mjModel& m, mjData& d, int row, int column) {
   if (!mj_isSparse(&m)) return {d.efc_J + std::ptrdiff_t(row) * m.nv + column, nullptr};
@@ -22,7 +22,7 @@ Entry entry_of(const mjModel& m, mjData& d, int row, int column) {
           d.efc_JT + in_column + place(d.efc_JT_colind + in_column, d.efc_JT_rownnz[column], row)};
 }
 
-/// Degrees of freedom that move a body, to `sink(number)`, from the body to the root.
+/// Calls `sink(number)` for each degree of freedom that moves a body, from the body to the root.
 template <class Sink>
 void each_dof(const mjModel& m, int body, const Sink& sink) {
   while (body != 0 && m.body_dofnum[body] == 0) body = m.body_parentid[body];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lines and faces that touch: MuJoCo has all of a contact in its point. Here its friction acts in the middle of the
-// cell that the point stands for (pressure_cells.hpp).
+// Touching lines and faces. MuJoCo lets all forces of a contact act at its point. Here friction acts in the middle of
+// the cell that the point represents (pressure_cells.hpp).
 #pragma once
 
 #include <vector>
@@ -10,15 +10,15 @@
 
 namespace muro::mujoco {
 
-/// Of one contact.
+/// The cell of one contact.
 struct ContactCell {
   Vec3 shift = Vec3::Zero();  ///< m: from the point to the middle of its cell
-  double spin = 0;            ///< rad/s: of the second body over the first about the normal, by degrees of freedom
+  double spin = 0;            ///< rad/s: of the second body relative to the first, about the normal, by its dofs
 };
 
 class ContactCells {
  public:
-  /// Of all contacts that were found. `is_of_disc(contact)`: see disc_contact.hpp.
+  /// Finds the cells of all contacts in `d`. `is_of_disc(contact)`: see disc_contact.hpp.
   template <class IsOfDisc>
   void find(const mjData& d, const IsOfDisc& is_of_disc) {
     const auto belongs = [&d](std::size_t begin, std::size_t i) {
@@ -34,7 +34,7 @@ class ContactCells {
           [&](std::size_t i, const Vec3& shift) { cells_[begin + i].shift = shift; });
     });
   }
-  /// After mj_makeConstraint: moves friction of each contact into the middle of its cell.
+  /// Moves friction of each contact to the middle of its cell. Call it after mj_makeConstraint.
   void move_friction(const mjModel& m, mjData& d);
   const ContactCell& operator[](int contact) const { return cells_[std::size_t(contact)]; }
 

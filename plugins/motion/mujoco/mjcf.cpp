@@ -23,7 +23,7 @@ Mjcf::Mjcf(const MujocoMeshes& meshes, Contacts contacts)
                         ? '.'
                         : std::use_facet<std::numpunct<char>>(std::locale()).decimal_point()) {}
 
-/// As short as it can be for exactly this value.
+/// Returns the shortest text that gives exactly this value.
 std::string Mjcf::number(double value) const {
   char text[40];
   char* const end = std::to_chars(text, text + sizeof text, value).ptr;
@@ -45,8 +45,8 @@ std::string Mjcf::place(const Pose& pose) const {
   return vector("pos", pose.position) + attribute("quat", {q.w(), q.x(), q.y(), q.z()});
 }
 
-/// What a geom needs where the defaults are another's. All bits: it touches whatever touches anything. The compiler
-/// takes no body of several geoms without mass.
+/// Returns the attributes of a geom when the defaults are those of another file. With all bits set it touches
+/// everything that touches anything. The compiler refuses a body of several geoms without mass.
 std::string Mjcf::own_contacts(const Surface& s) const {
   const int dimensions = s.rolling_resistance > 0 ? 6 : s.spinning_resistance > 0 ? 4 : 3;
   return attribute("mass", {1e-9}) +
@@ -78,7 +78,7 @@ namespace {
 
 std::string height_field_name(std::size_t number) { return "heightmap:" + std::to_string(number); }
 
-/// Of the values of a heightmap.
+/// The range of the values of a heightmap.
 struct ValueRange {
   double low, high;
   explicit ValueRange(const Heightmap& map) {
@@ -90,10 +90,11 @@ struct ValueRange {
 
 }  // namespace
 
-/// Where geoms have the contacts of this plugin, which finds those with heightmaps itself, a plane that touches nothing
-/// stands for one. Else it is MuJoCo's height field, whose values go from 0 to 1, lifted by what is below 0 there.
+/// Returns the attributes of a heightmap's geom. With the contacts of this plugin it is a plane that touches nothing,
+/// because the plugin finds contacts with heightmaps itself. Otherwise it is a height field of MuJoCo: its values go
+/// from 0 to 1, and `pose` is shifted to the lowest value.
 std::string Mjcf::terrain(const Shape& shape, Pose& pose) {
-  constexpr double base = 10;  // m: solid so far below the lowest
+  constexpr double base = 10;  // m: solid to this depth below the lowest
   if (contacts_ == Contacts::by_default) return " type='plane' size='0 0 1' contype='0' conaffinity='0'";
   const Heightmap map = meshes_->heightmap(shape);
   const ValueRange range(map);
@@ -106,7 +107,7 @@ std::string Mjcf::terrain(const Shape& shape, Pose& pose) {
   return " type='hfield' hfield='" + name + "'";
 }
 
-/// MuJoCo's rows, too, go from -y to +y.
+/// Scales the values to 0 to 1. The rows of MuJoCo go from -y to +y, as those of a heightmap.
 void Mjcf::fill_height_fields(mjModel& model) const {
   for (std::size_t i = 0; i < height_fields_.size(); ++i) {
     const Heightmap& map = height_fields_[i];

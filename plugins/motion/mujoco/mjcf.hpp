@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A world as a text in MJCF, MuJoCo's format of models.
+// A world as a text in MJCF, MuJoCo's model format.
 #pragma once
 
 #include <map>
@@ -12,41 +12,42 @@
 
 namespace muro::mujoco {
 
-/// How big the engine's buffers are.
+/// Sizes of the engine's buffers.
 struct Sizes {
   int contacts = 0;  ///< nconmax
-  int rows = 0;      ///< njmax: of constraints
+  int rows = 0;      ///< njmax: rows of constraints
 };
 
-/// Writes a world, body by body. Bodies and joints have the name `body_name`; the geoms of a body stand in the order of
+/// Writes a world, body by body. Bodies and joints have the name `body_name`; the geoms of a body are in the order of
 /// its shapes.
 class Mjcf {
  public:
-  /// Where parameters of contacts stand: as defaults of a whole text, or with each geom, as in a file of others. Those
-  /// are MuJoCo's own, with the surface of the shape.
+  /// Place of contact parameters: as defaults of a whole text, or in each geom for elements of another file. Parameters
+  /// in geoms are MuJoCo's own, with the surface of the shape.
   enum class Contacts { by_default, of_each_geom };
   explicit Mjcf(const MujocoMeshes& meshes, Contacts contacts = Contacts::by_default);
 
-  /// `owner`: number of the external body or robot, `name`: of it, for messages.
+  /// Returns the name of a body. `owner`: number of the external body or robot; `name`: its name, for messages.
   static std::string body_name(std::string_view name, std::size_t owner, std::size_t number);
 
-  /// The geom of a body's shape `number`, of those that become geoms.
+  /// Returns the name of a body's geom. `number`: counts only shapes that become geoms.
   static std::string geom_name(const std::string& body, std::size_t number);
 
-  /// At rest. Planes and heightmaps belong to the world's body. So do all others beside a few geoms that move, which
-  /// are tried with each of them; beside more, each object is a body, which MuJoCo sorts.
+  /// Adds a body at rest. Planes and heightmaps belong to the world's body. When only a few geoms move, other shapes
+  /// belong to it, too, and MuJoCo tests each against the moving geoms. When more geoms move, each object is a body of
+  /// its own, and MuJoCo sorts the bodies.
   void add_static_body(const multibody::ExternalBody& body, std::size_t owner);
-  /// A body that is posed from outside (mocap).
+  /// Adds a body that is posed from outside (mocap).
   void add_kinematic_body(const multibody::ExternalBody& body, std::size_t owner);
-  /// A tree of bodies. A free base has its frame in its centre of mass, any other body has that of the model; a fixed
-  /// base is posed from outside.
+  /// Adds a tree of bodies. A free base has its frame in its centre of mass; any other body has the frame of the model.
+  /// A fixed base is posed from outside.
   void add_robot(const multibody::RobotModel& model, std::size_t owner);
 
-  /// The whole text.
+  /// Returns the whole text.
   std::string text(const MujocoSettings& settings, const Sizes& sizes) const;
-  /// What was added, as elements for the end of another file.
+  /// Returns the added bodies as elements for the end of another file.
   std::string elements() const;
-  /// Puts the heights of heightmaps into a model compiled with these elements.
+  /// Writes the heights of heightmaps into a model compiled with these elements.
   void fill_height_fields(mjModel& model) const;
 
  private:
@@ -61,15 +62,15 @@ class Mjcf {
 
   const MujocoMeshes* meshes_;
   Contacts contacts_;
-  /// MuJoCo reads numbers by a stream in the C++ locale of its process: that of the program which embeds muro, or that
-  /// of the parser process, "C".
+  /// MuJoCo reads numbers from a stream in the C++ locale of its process: the locale of the program that embeds muro,
+  /// or "C" in the parser process.
   char decimal_sign_;
   static constexpr std::size_t few_geoms = 15;
 
   std::string ground_, scenery_in_world_, scenery_in_bodies_, bodies_, assets_, exclusions_, tendons_, equalities_;
   std::size_t moving_geoms_ = 0;
   std::map<const Vec3*, std::string> mesh_names_;
-  std::vector<Heightmap> height_fields_;  ///< by number, which is in the name
+  std::vector<Heightmap> height_fields_;  ///< by number, which is part of the name
 };
 
 /// The principal moments (kg m^2) of an inertia, and their axes as a rotation.
@@ -79,15 +80,15 @@ struct Principal {
 };
 Principal principal_of(const Inertia& inertia);
 
-/// Whether Coulomb friction of a body's joint is a row beside that of its drive: a tendon of this joint alone.
+/// Whether Coulomb friction of a body's joint has a row in addition to that of its drive: a tendon of this joint alone.
 inline bool has_friction_beside_drive(const multibody::RigidBody& body) {
   return body.drive == DriveMode::position && body.leader < 0 && body.limits.friction > 0;
 }
 
-/// Whether it has no bounds below, and stands still.
+/// Whether a shape is unbounded below and stands still.
 inline bool is_ground(const Shape& s) { return s.kind == ShapeKind::plane || s.kind == ShapeKind::heightmap; }
 
-/// Whether the shape of a body that moves becomes a geom: MuJoCo has ground at rest only.
+/// Whether the shape of a moving body becomes a geom: in MuJoCo, ground cannot move.
 inline bool has_geom(const multibody::BodyShape& s) { return !is_ground(s.shape); }
 
 }  // namespace muro::mujoco

@@ -45,7 +45,7 @@ void ModelRobot::find_indices(mjModel& m) {
   root_pose_ = {vector_of(m.body_pos + 3 * root), quat_at(m.body_quat + 4 * root)};
   armatures_.assign(m.dof_armature + first_dof_, m.dof_armature + first_dof_ + dof_count_);
   friction_losses_.assign(m.dof_frictionloss + first_dof_, m.dof_frictionloss + first_dof_ + dof_count_);
-  for (std::size_t i = 1; i < joints_.size(); ++i) {  // those of the file, or what the scenario has in their place
+  for (std::size_t i = 1; i < joints_.size(); ++i) {  // values of the file, or of the scenario instead
     const JointLimits& limits = model_->bodies[i].limits;
     const int dof = joints_[i].dof;
     armatures_[std::size_t(dof - first_dof_)] = limits.armature;
@@ -78,7 +78,8 @@ std::span<double> ModelRobot::kept_spin() const {
   return state_->memory.subspan(std::size_t(dof_count_) + source_->activations.size(), 3);
 }
 
-/// A root that the world holds stands where the base does; a base that is no body of the file stands for the world.
+/// Sets the pose of the base. A root that the world holds has the pose of the base. A base that is no body of the file
+/// represents the world.
 void ModelRobot::set_base(mjModel& m, mjData& d) const {
   const multibody::RobotState& s = *state_;
   if (source_->is_free) {
@@ -114,7 +115,7 @@ void ModelRobot::import(mjModel& m, mjData& d) {
   set_forces(m, d);
 }
 
-/// Of the drives in front of its joints, beside what the file says.
+/// Sets friction and armature of its joints' drives, in addition to the values of the file.
 void ModelRobot::set_drive_losses(mjModel& m) const {
   for (std::size_t i = 1; i < joints_.size(); ++i) {
     const multibody::JointState& joint = state_->joints[i];
@@ -125,7 +126,8 @@ void ModelRobot::set_drive_losses(mjModel& m) const {
   }
 }
 
-/// A target is what the joint is to do; a servo follows the length of its transmission, gear times the position.
+/// Sets the controls. A target belongs to the joint, but a servo follows the length of its transmission: gear times the
+/// position.
 void ModelRobot::set_controls(const mjModel& m, mjData& d) const {
   for (const multibody::RigidBody& body : model_->bodies) {
     const ModelDrive& drive = source_->drives[body.link];
@@ -151,7 +153,7 @@ void ModelRobot::set_forces(const mjModel& m, mjData& d) {
     Vec3 com = vector_of(m.body_ipos + 3 * body);
     if (!joints_[i].has_body) com -= vector_of(m.jnt_pos + 3 * joints_[i].joint);
     const Vec3 arm = body_states_[i].pose.orientation * com;
-    // where several joints move one body, forces act on the last
+    // when several joints move one body, forces act on the last
     if (!joints_[i].has_body && w.force.isZero(0) && w.torque.isZero(0)) continue;
     put(d.xfrc_applied + 6 * body, w.force);
     put(d.xfrc_applied + 6 * body + 3, Vec3(w.torque - arm.cross(w.force)));
@@ -177,7 +179,7 @@ void ModelRobot::export_state(const mjData& d) {
     s.memory[std::size_t(dof_count_) + i] = d.act[source_->activations[i]];
 }
 
-/// Of a body of the model, where the contacts of the last step were found.
+/// Returns the origin of a body of the model at the time when the contacts of the last step were found.
 Vec3 ModelRobot::origin_of(const mjData& d, std::uint32_t body) const {
   const Joint& joint = joints_[body];
   if (joint.has_body) return vector_of(d.xpos + 3 * source_->bodies[model_->bodies[body].link]);

@@ -11,27 +11,27 @@ namespace muro::mujoco {
 
 class ModelRobot {
  public:
-  /// How many numbers it keeps from step to step: the accelerations from which the solver starts, what actuators
-  /// remember, and the spin of a free base in its own axes, to the last digit.
+  /// Number of values that it keeps from step to step: the accelerations from which the solver starts, the activations
+  /// of actuators, and the exact spin of a free base in its own axes.
   static std::size_t memory_of(const multibody::RobotModel& model, const ModelRobotSource& source) {
     return model.bodies.size() - 1 + (source.is_free ? 6 + 3 : 0) + source.activations.size();
   }
 
   ModelRobot(const multibody::RobotModel& model, multibody::RobotState& state, const ModelRobotSource& source);
 
-  /// Finds its joints in the compiled model. `file`: with the numbers of the source.
+  /// Finds its joints in the compiled model, in which the numbers of the source are valid.
   void find_indices(mjModel& m);
-  /// Takes over state, targets, and forces from outside.
+  /// Takes over state, targets and external forces.
   void import(mjModel& m, mjData& d);
-  /// Hands back what the step made of it.
+  /// Copies the results of the step to the state.
   void export_state(const mjData& d);
-  /// Adds what a contact did to one of its bodies in MuJoCo: a force (N) and a torque (N m) at `point` (m).
+  /// Adds the force (N) and torque (N m) of a contact at `point` (m) on one of its bodies in MuJoCo.
   void add_contact(const mjData& d, int body, const Vec3& force, const Vec3& torque, const Vec3& point) const;
-  /// How deep one of its bodies is in scenery.
+  /// Adds an overlap of one of its bodies with scenery.
   void add_overlap(int body, double depth, const std::string& obstacle);
 
   multibody::RobotState& state() const { return *state_; }
-  /// What muro has in place of a body in MuJoCo.
+  /// Returns the object in muro that belongs to a body in MuJoCo.
   ObjectId object_of(int body) const {
     const std::int32_t link = loaded_links_[std::size_t(body)];
     return link < 0 ? no_object : model_->loaded_links[std::size_t(link)].object;
@@ -41,7 +41,7 @@ class ModelRobot {
  private:
   struct Joint {
     int joint = -1, position = 0, dof = 0;
-    bool has_body = false;  ///< its link is a body of the file, else it lies at the anchor of the joint
+    bool has_body = false;  ///< its link is a body of the file; else it is at the anchor of the joint
   };
 
   void set_motion_type(mjModel& m);
@@ -55,14 +55,14 @@ class ModelRobot {
   const multibody::RobotModel* model_;
   multibody::RobotState* state_;
   const ModelRobotSource* source_;
-  std::vector<Joint> joints_;               ///< one per body of the model; the base's is none
-  std::vector<std::int32_t> loaded_links_;  ///< of each body in MuJoCo; -1
+  std::vector<Joint> joints_;               ///< one per body of the model; unused for the base
+  std::vector<std::int32_t> loaded_links_;  ///< number for each body in MuJoCo; -1: none
   int first_dof_ = 0, dof_count_ = 0, free_position_ = 0;
-  Pose root_pose_;                                          ///< in the file, of a root that is held by the world
-  std::vector<double> armatures_, friction_losses_;         ///< of the file, one per degree of freedom of the robot
+  Pose root_pose_;                                          ///< pose in the file of a root that the world holds
+  std::vector<double> armatures_, friction_losses_;         ///< from the file, one per degree of freedom of the robot
   std::vector<std::pair<int, std::pair<int, int>>> geoms_;  ///< with contype and conaffinity of the file
-  std::optional<multibody::MotionType> motion_type_;        ///< that the model is set to
-  bool has_forces_ = false;                                 ///< forces from outside are set
+  std::optional<multibody::MotionType> motion_type_;        ///< type for which the model is set
+  bool has_forces_ = false;                                 ///< external forces are set
   std::vector<multibody::BodyState> body_states_;           ///< scratch
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 namespace mc = model_constants;
 
-/// A model that MuJoCo has written to memory.
+/// Loads a model that MuJoCo has written to memory.
 Model model_in(std::span<const char> bytes) {
   catch_errors();
   const auto files = std::make_unique<mjVFS>();
@@ -34,7 +34,7 @@ Model model_in(std::span<const char> bytes) {
   return model;
 }
 
-/// The root of the body that an actuator of `m` acts on; 0 where it cannot be said.
+/// Returns the root of the body on which an actuator of `m` acts; 0 when it is not known.
 int root_of_actuator(const mjModel& m, int actuator) {
   const auto root_of_site = [&m](int site) { return m.body_rootid[m.site_bodyid[site]]; };
   const int id = m.actuator_trnid[2 * actuator];

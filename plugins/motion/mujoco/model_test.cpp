@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `settings: model`: what was read from MJCF follows raw MuJoCo on the same file.
+// Tests of `settings: model`: a scene read from MJCF follows raw MuJoCo on the same file.
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
@@ -16,9 +16,9 @@
 namespace muro::mujoco_model {
 namespace {
 
-/// An arm with servos, a motor, a spring, a tendon, an equality constraint, an anchor off its link, joints that do not
-/// begin at 0; a ball with rolling friction and a box that fall on a plane and a table with contact parameters of their
-/// own.
+/// An arm with servos, a motor, a spring, a tendon, an equality constraint, an anchor off its link, and joints that do
+/// not begin at 0. A ball with rolling friction and a box fall on a plane and a table with their own contact
+/// parameters.
 std::string yard(const std::string& option) {
   return "<mujoco><compiler angle='degree'/><option timestep='0.002' " + option + R"(/>
 <default><joint damping="0.05" armature="0.01"/><geom friction="0.8 0.01 0.001"/>
@@ -73,9 +73,9 @@ struct Raw {
   mjData* d = nullptr;
 };
 
-/// A file read as the world, with all of its trees as robots.
+/// A file that is read as the world, with all its trees as robots.
 struct Yard : test::Scene {
-  /// `limits_of_joints`: in place of those of the file, of every joint.
+  /// `limits_of_joints`: changes the limits that the file gives for every joint.
   explicit Yard(const std::string& path, const std::vector<std::string>& left_out = {},
                 const std::function<void(JointLimits&)>& limits_of_joints = {}) {
     const WorldModel model = read_world(path);
@@ -105,7 +105,7 @@ struct Yard : test::Scene {
   Pose& pose_of(const char* robot) { return world().value(world().find_robot(robot)->base(), keys::pose); }
 };
 
-/// The largest difference of any coordinate in 1 s.
+/// Returns the largest difference of any coordinate in 1 s.
 double largest_difference(const std::string& option) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("yard.xml", yard(option));
@@ -169,7 +169,7 @@ TEST(MujocoModel, DynamicsOfJointsMayBeOthersThanThoseOfTheFile) {
   EXPECT_GT(std::abs(raw.position("shoulder") - as_it_is.position("shoulder")), 1e-3);
 }
 
-/// MuJoCo's binary format of height fields: 9 x 7 nodes of rolling hills.
+/// Returns 9 x 7 nodes of rolling hills in MuJoCo's binary format of height fields.
 std::string hills() {
   constexpr std::int32_t rows = 9, columns = 7;
   std::string bytes(8 + 4 * rows * columns, '\0');
@@ -216,13 +216,13 @@ std::string hopper_with(const std::string& floor) {
   return text.replace(text.find("FLOOR"), 5, floor);
 }
 
-/// With a tree that is not the first.
+/// Adds a tree that is not the first.
 std::string with_other(std::string text) {
   return text.insert(text.find("</worldbody>"), "<body name='other' pos='0 0 1'><freejoint/><geom size='1'/></body>");
 }
 
 TEST(MujocoModel, ARobotOnSceneryOfTheScenarioFollowsRawMuJoCo) {
-  // the floor of the file is left out where it is read as a robot; that of the scene takes its place
+  // a file that is read as a robot loses its floor; the floor of the scene replaces it
   const test::ScratchFolder folder;
   const std::string with_floor =
       folder.file("floor.xml", hopper_with("<geom type='plane' size='1 1 1' friction='0.8 0 0'/>"));
@@ -252,7 +252,7 @@ TEST(MujocoModel, ARobotOnSceneryOfTheScenarioFollowsRawMuJoCo) {
     ASSERT_NEAR(scene.world().value(scene.world().object("r/hip"), keys::joint_position), raw.position("hip"), 1e-6);
   }
   EXPECT_LT(scene.pose(robot).position.z(), 0.8);
-  // what contacts do is told: most of the weight stands on the floor in the mean, so some of it does
+  // contact forces are reported: on average the floor carries most of the weight
   double force = 0;
   for (const char* name : {"r/torso", "r/leg", "r/foot"})
     force += scene.world().value(scene.world().object(name), keys::contact_wrench).force.z();
@@ -318,7 +318,7 @@ TEST(MujocoModel, ASnapshotGoesOnBitForBit) {
   EXPECT_EQ(scene.joint("arm/shoulder", keys::joint_position), shoulder);
 }
 
-/// The message of a scene that cannot be made.
+/// Returns the message of a scene that cannot be made.
 template <class Make>
 std::string message_of(Make make) {
   try {
@@ -400,7 +400,7 @@ TEST(MujocoModel, AHeightmapOfTheSceneIsAHeightFieldBesideTheFile) {
   const std::string path = folder.file("balls.xml", R"(<mujoco><option timestep="0.002"/><worldbody>
 <body name="low" pos="-1.1 0.4 0.5"><freejoint/><geom size="0.1"/></body>
 <body name="high" pos="0.9 -0.3 1.5"><freejoint/><geom size="0.1"/></body></worldbody></mujoco>)");
-  // -0.2 m to the left, 0.8 m to the right, under a pose that lifts it by 0.3 m; the values are no part of 0 to 1
+  // -0.2 m to the left, 0.8 m to the right, with a pose that lifts it by 0.3 m; the values are not within 0 to 1
   const std::int32_t counts[] = {2, 6};
   const float values[] = {-0.1f, -0.1f, -0.1f, 0.4f, 0.4f, 0.4f, -0.1f, -0.1f, -0.1f, 0.4f, 0.4f, 0.4f};
   std::string bytes(sizeof counts + sizeof values, '\0');

@@ -14,10 +14,11 @@ using multibody::MotionType;
 
 namespace {
 
-/// How often buffers for contacts may double in one step.
+/// Largest number of contacts to which buffers may grow.
 constexpr int most_contacts = 1 << 16;
 
-/// All bits of contype and conaffinity: what is not of the file touches whatever in it touches anything.
+/// All bits of contype and conaffinity: bodies from outside the file touch every geom of the file that touches
+/// anything.
 constexpr int every_bit = 0x7fffffff;
 
 }  // namespace
@@ -65,8 +66,8 @@ void ModelWorld::find_robots() {
   }
 }
 
-/// Trees that are no robots of this world stand still and touch nothing; so does what stands in a file that is not the
-/// world of the scene.
+/// Disables trees that are no robots of this world: they stand still and touch nothing. Also disables bodies at rest in
+/// a file that is not the world of the scene.
 void ModelWorld::leave_out_other_parts() {
   mjModel& m = *file_.model;
   std::vector<bool> is_left_out(std::size_t(m.ngeom)), is_held(std::size_t(m.nbody));
@@ -176,7 +177,7 @@ void ModelWorld::import(KinematicBody& k) {
   std::copy_n(orientation, 4, data_->mocap_quat + 4 * k.mocap);
 }
 
-/// A step that found no room is taken again: all that it begins with is in the states.
+/// Advances the world. A step without enough memory is repeated: its start is in the states.
 void ModelWorld::advance(double dt) {
   if (dt != dt_) set_time_step(dt);
   while (!step()) {
@@ -191,7 +192,7 @@ void ModelWorld::advance(double dt) {
   report_contacts();
 }
 
-/// False where there was no room for all contacts.
+/// Makes a step. Returns false when there was no room for all contacts.
 bool ModelWorld::step() {
   mjModel& m = *file_.model;
   mjData& d = *data_;
@@ -218,7 +219,7 @@ bool ModelWorld::step() {
   return !full || m.nconmax >= most_contacts;
 }
 
-/// To the first of the two, or to the other where the world does not move that. `force` and `torque`: on the second, to
+/// Reports a contact to the first of its robots that the world moves. `force` and `torque`: on the second body, to
 /// which MuJoCo's normal points.
 void ModelWorld::tell_contact(const mjContact& contact, const std::int32_t (&owners)[2], const Vec3& force,
                               const Vec3& torque) const {
@@ -239,7 +240,7 @@ void ModelWorld::tell_contact(const mjContact& contact, const std::int32_t (&own
   }
 }
 
-/// Contacts are those at the beginning of the step.
+/// Reports the contacts at the beginning of the step.
 void ModelWorld::report_contacts() {
   const mjModel& m = *file_.model;
   const mjData& d = *data_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A world of MuJoCo that is an MJCF file as its author wrote it: options, contact parameters, friction and actuators
-// are the file's, a step is mj_step. What else is in the scene stands or moves in it as geoms of the file's world.
+// A world of MuJoCo from an unchanged MJCF file. Options, contact parameters, friction and actuators are those of the
+// file; a step is mj_step. Other bodies of the scene become geoms in the file's world.
 #pragma once
 
 #include <deque>
@@ -49,15 +49,15 @@ class ModelWorld final : public multibody::World {
   Host& host_;
   Mjcf mjcf_;
   std::size_t owners_ = 0;
-  std::vector<StaticBody> static_bodies_;  ///< that are no part of the file, or may be
+  std::vector<StaticBody> static_bodies_;  ///< bodies that are not in the file, or may be
   std::deque<KinematicBody> kinematic_bodies_;
   std::deque<ModelRobot> robots_;
   CompiledFile file_;
   Data data_;
-  std::vector<std::int32_t> robot_of_body_;    ///< one per body in MuJoCo; -1
-  std::vector<const std::string*> obstacles_;  ///< one per geom: the name of the scenery that it is, or null
-  std::vector<ObjectId> objects_;              ///< one per geom: that has the shape, if any
-  std::vector<int> held_joints_;               ///< of trees that are no robots
+  std::vector<std::int32_t> robot_of_body_;    ///< one per body in MuJoCo; -1: none
+  std::vector<const std::string*> obstacles_;  ///< one per geom: the name of its scenery, or null
+  std::vector<ObjectId> objects_;              ///< one per geom: object that has the shape, if any
+  std::vector<int> held_joints_;               ///< joints of trees that are no robots
   double dt_ = 0;
 };
 

@@ -12,12 +12,12 @@ namespace {
 using Frame = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double slow_recovery = 2e-2;  ///< m/s: what lands may rebound so fast
-constexpr double shallow = 1e-3;        ///< m: overlaps that are taken back so slowly, in one solution
-/// A contact is no softer than for a link of the mass of the lighter robot by this.
+constexpr double slow_recovery = 2e-2;  ///< m/s: a body that lands may rebound at this speed
+constexpr double shallow = 1e-3;        ///< m: overlaps up to this are corrected at that speed, in one solution
+/// A contact is no softer than for a link with the mass of the lighter robot divided by this.
 constexpr double most_carried = 100;
 
-/// m/s^2: by what the cone of a contact lifts what slides, spins and rolls by `slip(k)` in its row k.
+/// m/s^2: lift by the cone of a contact that slides, spins and rolls by `slip(k)` in its row k.
 template <class Slip>
 double lift_of(const mjContact& c, const Slip& slip) {
   if (c.dim == 3) return c.friction[0] * elementary::hypot(slip(1), slip(2));
@@ -26,9 +26,9 @@ double lift_of(const mjContact& c, const Slip& slip) {
   return std::sqrt(sum);
 }
 
-/// m/s, of bodies that meet with the speed `approach` (m/s), both in the middle of a step. The impact was earlier in
-/// the step: they have been pulled together (m/s^2) for their depth (m) since, and part with what Newton's law leaves
-/// of the energy that they had there, plus what the pull takes from them on their way back.
+/// m/s: rebound speed of bodies that meet with the speed `approach` (m/s), both in the middle of a step. The impact was
+/// earlier in the step. Since then `pull` (m/s^2) has accelerated the bodies along their depth (m). They separate with
+/// the energy that Newton's law leaves at the impact, plus the energy that the pull takes on the way back.
 double rebound_speed(double restitution, double approach, double pull, double depth, double dt) {
   const double half_step = 0.5 * pull * dt, of_depth = 2 * pull * depth;
   const double in = std::max(0.0, (approach + half_step) * (approach + half_step) - of_depth);
@@ -103,7 +103,7 @@ void MujocoContacts::set_friction(mjData& d) {
   });
 }
 
-/// What the rows do not know of the speed of the second body over the first.
+/// Returns the part of the velocity of the second body relative to the first that is not in the rows.
 MujocoContacts::ContactVelocity MujocoContacts::external_velocity(const mjContact& c, const ContactCell& cell) const {
   Vec3 speed = Vec3::Zero(), spin = Vec3::Zero();
   const GeomOwner &a = owners_[std::size_t(c.geom1)], &b = owners_[std::size_t(c.geom2)];
@@ -116,7 +116,7 @@ MujocoContacts::ContactVelocity MujocoContacts::external_velocity(const mjContac
   return velocity;
 }
 
-/// kg: of the lighter of the robots that touch.
+/// kg: mass of the lighter of the touching robots.
 double MujocoContacts::lighter_mass(const mjModel& m, const mjContact& c) const {
   double mass = infinity;
   for (const int geom : {c.geom1, c.geom2})
@@ -130,7 +130,7 @@ void MujocoContacts::set_reference(const mjModel& m, mjData& d, int id, int row,
   const GeomOwner &a = owners_[std::size_t(c.geom1)], &b = owners_[std::size_t(c.geom2)];
   const ContactCell& cell = cells_[id];
   ContactVelocity speed = external_velocity(c, cell);
-  // PGS has its matrix already
+  // PGS has computed its matrix already
   const bool may_yield = c.dim == 3 && m.opt.solver != mjSOL_PGS;
   const double ends = may_yield ? contact_geometry::speed_of_ends(cell.spin + speed[3], cell.shift) : 0;
   for (int k = 0; k < c.dim; ++k) speed[k] += d.efc_vel[row + k];
@@ -146,7 +146,7 @@ void MujocoContacts::set_reference(const mjModel& m, mjData& d, int id, int row,
   for (int k = 1; k < c.dim; ++k) target[k] = -speed[k] / dt;
   Reference& reference = references_[std::size_t(id)];
   reference = {target[0], infinity, splits && recovery > slow_recovery ? recovery / dt : 0, 0, ends / dt};
-  // accelerations of the last step say nothing of an impact, and must not hide it
+  // accelerations of the last step know nothing of an impact and must not hide it
   if (impact && c.dim >= 3) reference.max_lift = lift_of(c, [&](int k) { return target[k] - d.efc_b[row + k]; });
   const double unit_softness = 1 / settings_.impedance - 1;
   double softness = bounces ? (1 / mjMAXIMP - 1) / unit_softness : 1;
@@ -174,8 +174,8 @@ bool MujocoContacts::leave_overlaps(mjData& d) {
   return pushes;
 }
 
-/// For a normal force of `pressure` (N). Returns by how much (m/s^2) that changes what its friction rows are softened
-/// by.
+/// Sets the softness of a contact's friction rows for a normal force of `pressure` (N). Returns the change (m/s^2) by
+/// the new softness.
 double MujocoContacts::soften(mjData& d, int id, double pressure) const {
   mjContact& c = d.contact[id];
   const Reference& reference = references_[std::size_t(id)];
@@ -191,7 +191,7 @@ double MujocoContacts::soften(mjData& d, int id, double pressure) const {
 
 double MujocoContacts::correct_for_sliding(const mjModel& m, mjData& d, const mjtNum* acceleration, bool is_solved) {
   if (d.ncon == 0) return 0;
-  constexpr double at_rest = 1;  // m/s^2: forces of the step before say something of what is accelerated no more
+  constexpr double at_rest = 1;  // m/s^2: up to this acceleration, forces of the last step are a good guess
   rows_.resize(std::size_t(d.nefc));
   mj_mulJacVec(&m, &d, rows_.data(), acceleration);
   double largest_change = 0;

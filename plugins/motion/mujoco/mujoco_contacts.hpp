@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contacts of a world: what they are set to before the solver runs, and what they did.
+// Contacts of a world: their settings before the solver runs, and their forces after it.
 #pragma once
 
 #include <deque>
@@ -12,54 +12,56 @@
 
 namespace muro::mujoco {
 
-/// What a geom belongs to.
+/// The owner of a geom.
 struct GeomOwner {
-  std::int32_t robot = -1;        ///< of this world; -1: an external body
-  std::uint32_t body = 0;         ///< of the robot
+  std::int32_t robot = -1;        ///< robot of this world; -1: an external body
+  std::uint32_t body = 0;         ///< body of the robot
   std::uint32_t loaded_link = 0;  ///< see BodyShape
-  ObjectId object = no_object;    ///< that has the shape
+  ObjectId object = no_object;    ///< object that has the shape
   Surface surface;
   contact_geometry::ShapeExtent extent;
-  terrain_contact::ConvexShape convex;   ///< of a robot: what touches heightmaps
-  Pose in_body;                          ///< of a robot: of the shape, from the frame of its body in MuJoCo
-  const std::string* scenery = nullptr;  ///< its name; null for what moves
-  /// Of what is posed from outside and has no degrees of freedom: pose and velocity, none where it rests.
+  terrain_contact::ConvexShape convex;   ///< for a robot: shape that touches heightmaps
+  Pose in_body;                          ///< for a robot: pose of the shape in the frame of its body in MuJoCo
+  const std::string* scenery = nullptr;  ///< its name; null for moving bodies
+  /// Pose and velocity of a body that is posed from outside and has no degrees of freedom; null when it rests.
   const Pose* pose = nullptr;
   const Twist* twist = nullptr;
 };
 
 class MujocoContacts {
  public:
-  /// `geoms`: how many the model has.
+  /// Prepares for a model. `geoms`: number of its geoms.
   void prepare(const MujocoSettings& settings, std::size_t geoms);
   GeomOwner& owner_of(int geom) { return owners_[std::size_t(geom)]; }
 
-  /// Tells robots how deep they are in scenery.
+  /// Reports overlaps with scenery to the robots.
   void report_overlaps(const mjData& d, std::deque<MujocoRobot>& robots) const;
-  /// `geom` is a heightmap at `pose`.
+  /// Adds the heightmap at `pose` that `geom` represents.
   void add_terrain(int geom, const Heightmap& map, const Pose& pose) { terrains_.push_back({geom, map, pose}); }
 
-  /// Adds the contacts of robots with heightmaps to those that MuJoCo has found.
+  /// Adds the contacts of robots with heightmaps to the contacts that MuJoCo has found.
   void find_terrain_contacts(const mjModel& m, mjData& d, const std::deque<MujocoRobot>& robots) const;
-  /// Friction of what has been found to touch.
+  /// Sets the friction of the contacts that were found.
   void set_friction(mjData& d);
-  /// When rows have been made: where friction acts.
+  /// Moves friction to the middle of the cells. Call it when rows have been made.
   void move_friction(const mjModel& m, mjData& d) { cells_.move_friction(m, d); }
-  /// What the rows of contact `id`, from `row` on, aim at in a step of `dt` (s). mjData::efc_b holds the accelerations
-  /// (m/s^2) of all rows without constraints.
+  /// Sets the target accelerations of the rows of contact `id`, starting at `row`, in a step of `dt` (s). mjData::efc_b
+  /// holds the accelerations (m/s^2) of all rows without constraints.
   void set_reference(const mjModel& m, mjData& d, int id, int row, double dt);
-  /// A convex solver lets what slides at s lift off at mu s (Anitescu, Optimization-based simulation of nonsmooth rigid
-  /// multibody dynamics, 2006). This takes it off what the normal row aims at, as found for an `acceleration` of all
-  /// degrees of freedom; solved again until that settles, contacts have Coulomb's friction (the fixed point of Cadoux
-  /// on De Saxce's formulation). Returns the largest change (m/s^2).
+  /// Corrects the targets of sliding contacts. With a convex solver, a contact that slides at s lifts off at mu s
+  /// (Anitescu, Optimization-based simulation of nonsmooth rigid multibody dynamics, 2006). This subtracts the lift
+  /// from the target of the normal row, for a given `acceleration` of all degrees of freedom. Repeated solutions
+  /// converge to Coulomb's friction (the fixed point of Cadoux on De Saxce's formulation). Returns the largest change
+  /// (m/s^2).
   ///
-  /// Where a patch spins, the ends of a cell move against its middle, and as long as they move faster than that, the
-  /// cell does as much less than its limit as its middle is slower. Its rows get a softness that does this.
-  /// `is_solved`: the rows have their forces for this acceleration.
+  /// When a patch spins, the ends of a cell move relative to its middle. While the middle is slower than the ends,
+  /// friction is reduced by the ratio of these speeds: the rows are softened for this. `is_solved`: whether the rows
+  /// have their forces for this acceleration.
   double correct_for_sliding(const mjModel& m, mjData& d, const mjtNum* acceleration, bool is_solved);
-  /// After the solver: leaves what takes overlaps back out of what rows aim at. Returns whether that changes anything.
+  /// Removes the correction of overlaps from the targets of rows. Call it after the solver. Returns whether this
+  /// changes anything.
   bool leave_overlaps(mjData& d);
-  /// Adds what contacts did to the robots.
+  /// Adds the forces of contacts to the robots.
   void export_wrenches(const mjData& d, std::deque<MujocoRobot>& robots) const;
 
  private:
@@ -76,11 +78,11 @@ class MujocoContacts {
   };
 
   struct Reference {
-    double normal = 0;    ///< m/s^2, before the correction for sliding
-    double max_lift = 0;  ///< m/s^2, of an impact: what stopping all sliding would lift
-    double recovery = 0;  ///< m/s^2: the part of `normal` that takes an overlap back and that velocities shall not keep
+    double normal = 0;          ///< m/s^2, before the correction for sliding
+    double max_lift = 0;        ///< m/s^2, of an impact: lift when all sliding stops
+    double recovery = 0;        ///< m/s^2: part of `normal` that corrects an overlap and must not stay in velocities
     double least_softness = 0;  ///< 1/kg, of its friction
-    double ends = 0;            ///< m/s^2: what stops the ends of the cell against its middle within the step
+    double ends = 0;            ///< m/s^2: stops the ends of the cell relative to its middle within the step
   };
 
   MujocoSettings settings_;

@@ -16,11 +16,11 @@ constexpr const char* too_big =
 
 void raise(const char* text) { throw LibraryError{text}; }
 
-/// What MuJoCo warned of last in this thread.
+/// The last warning of MuJoCo in this thread.
 thread_local char last_warning[500];
 void keep(const char* text) { std::snprintf(last_warning, sizeof last_warning, "%s", text); }
 
-/// MuJoCo keeps what it has read last, one a process.
+/// Guards the compiler: MuJoCo keeps the last file that it has read, one per process.
 std::mutex& compiling() {
   static std::mutex mutex;
   return mutex;

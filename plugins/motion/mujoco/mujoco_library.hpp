@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MuJoCo as a library: who owns what it makes, and its errors as exceptions.
+// MuJoCo as a library: ownership of its objects, and its errors as exceptions.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -21,12 +21,12 @@ using Data = std::unique_ptr<mjData, Deleter>;
 
 inline Vec3 vector_of(const mjtNum* v) { return {v[0], v[1], v[2]}; }
 
-/// What MuJoCo calls an error. It would end the process: see catch_errors.
+/// An error of MuJoCo. It would end the process: see catch_errors.
 struct LibraryError {
   std::string text;
 };
 
-/// What MuJoCo's compiler warns of, each text once, through the log of a host.
+/// Logs warnings of MuJoCo's compiler through a host, each text once.
 class WarningLog {
  public:
   explicit WarningLog(Host& host) : host_(host) {}
@@ -37,14 +37,14 @@ class WarningLog {
   std::set<std::string> told_;
 };
 
-/// From now on errors of MuJoCo in this process throw LibraryError, unless the process has its own handler, and
-/// warnings are neither printed nor written to a file: those of steps are in mjData::warning. [any thread]
+/// Makes errors of MuJoCo in this process throw LibraryError from now on, unless the process has its own handler.
+/// Warnings are neither printed nor written to a file; warnings of steps are in mjData::warning. [any thread]
 void catch_errors();
 
 /// Compiles a model. Throws muro::Error with the compiler's text. [any thread]
 Model compile(const std::string& mjcf, WarningLog& warnings);
 
-/// Data for a model. Throws muro::Error when there is no memory for it. [any thread]
+/// Makes data for a model. Throws muro::Error when there is no memory for it. [any thread]
 Data make_data(const mjModel& model);
 
 }  // namespace muro::mujoco

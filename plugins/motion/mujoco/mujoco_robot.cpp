@@ -12,7 +12,7 @@ using multibody::JointState, multibody::RigidBody, multibody::MotionType;
 
 namespace {
 
-/// An effort that no drive reaches.
+/// An effort above that of any drive.
 constexpr double unlimited = 1e30;
 
 Quat quaternion_of(const mjtNum* q) { return Quat(q[0], q[1], q[2], q[3]); }
@@ -36,7 +36,7 @@ void MujocoRobot::find_indices(mjModel& m) {
   for (std::size_t i = 0; i < n; ++i) {
     const std::string name = Mjcf::body_name(model_->name, owner_, i);
     bodies_[i] = mj_name2id(&m, mjOBJ_BODY, name.c_str());
-    // the compiler evens out moments that no solid body has
+    // the compiler changes moments that no solid body has
     copy(m.body_inertia + 3 * bodies_[i], principal_of(model_->bodies[i].inertia).moments);
     if (i == 0) continue;
     joints_[i] = mj_name2id(&m, mjOBJ_JOINT, name.c_str());
@@ -110,7 +110,8 @@ void MujocoRobot::set_state(mjData& d) const {
     std::fill_n(d.qacc_warmstart + first_dof_, dof_count_, 0.0);
 }
 
-/// Euler's equations are solved when the step is done: see export_state. MuJoCo has the spin in axes of the body.
+/// Cancels MuJoCo's gyroscopic torque, because Euler's equations are solved after the step: see export_state. MuJoCo
+/// has the spin in axes of the body.
 void MujocoRobot::cancel_gyroscopic_torque(mjData& d) const {
   const Vec3 spin = vector_of(d.qvel + first_dof_ + 3);
   copy(d.qfrc_applied + first_dof_ + 3, Vec3(spin.cross(model_->bodies[0].inertia.tensor() * spin)));

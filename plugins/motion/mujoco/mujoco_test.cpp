@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is particular to MuJoCo. What every motion owes is tested in tests/conformance.
+// Tests of motion.mujoco only. Tests for every motion are in tests/conformance.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -24,7 +24,7 @@ struct World : test::Scene {
   Vec3 contact_force(const RobotView& r) { return world().value(r.base(), keys::contact_wrench).force; }
 };
 
-/// The message of a scene that cannot be made.
+/// Returns the message of a scene that cannot be made.
 std::string message_of(World& w) {
   try {
     w.start();
@@ -35,7 +35,7 @@ std::string message_of(World& w) {
 }
 
 TEST(MujocoMotion, WhatSlidesDoesNotLiftOff) {
-  // MuJoCo by itself lets a contact that slides at s part at mu s: at 2 m/s the block would hop
+  // MuJoCo alone lets a contact that slides at s separate at mu s: at 2 m/s the block would hop
   World w;
   w.add_ground(0.5);
   const RobotView& r =
@@ -50,7 +50,7 @@ TEST(MujocoMotion, WhatSlidesDoesNotLiftOff) {
 }
 
 TEST(MujocoMotion, MomentsThatNoSolidBodyHasAreTakenAsTheyAre) {
-  // izz > ixx + iyy: MuJoCo's compiler refuses them or evens them out
+  // izz > ixx + iyy: MuJoCo's compiler refuses or changes such moments
   World w;
   w.world().set(world_object, keys::gravity, Vec3(Vec3::Zero()));
   const RobotView& r =
@@ -90,7 +90,7 @@ TEST(MujocoMotion, TheArmatureOfAJointIsInertiaThatItFeels) {
 }
 
 TEST(MujocoMotion, MoreContactsThanExpectedGetMoreRoomAndLeaveNoFile) {
-  // tables of 25 legs, whose soles touch in 4 points each
+  // tables with 25 legs; each sole touches in 4 points
   const RobotTree table = test::tree_of([](RobotBuilder& b) {
     b.base("table");
     b.set(keys::inertial, solid_box(10, {1, 1, 0.1}));

@@ -11,9 +11,9 @@ using multibody::MotionType;
 
 namespace {
 
-/// m/s^2: sliding that changes what contacts aim at by less needs no further solution. It moves them by 20 um.
+/// m/s^2: when sliding changes the targets of contacts by less, no further solution is needed. It moves them by 20 um.
 constexpr double sliding_tolerance = 1;
-/// Numbers on MuJoCo's stack, at most.
+/// Largest number of values on MuJoCo's stack.
 constexpr int max_stack = 200000000;
 
 }  // namespace
@@ -111,7 +111,7 @@ void MujocoWorld::find_indices() {
   }
 }
 
-/// Data as big as the model says. Nothing in it outlasts a step.
+/// Allocates data of the size that the model needs. Nothing in it is kept after a step.
 void MujocoWorld::allocate_data() {
   mjModel& m = *model_;
   const double n = m.nv, rows = m.njmax, bodies = m.nbody;
@@ -122,7 +122,7 @@ void MujocoWorld::allocate_data() {
   data_ = make_data(m);
 }
 
-/// A step that found no room is taken again: all that it begins with is in the states.
+/// Advances the world. A step without enough memory is repeated: its start is in the states.
 void MujocoWorld::advance(double dt) {
   if (model_->nv == 0) return;
   while (true) {
@@ -179,7 +179,7 @@ void MujocoWorld::import(KinematicBody& k) {
   std::copy_n(orientation, 4, data_->mocap_quat + 4 * k.mocap);
 }
 
-/// What mj_step does, call by call.
+/// Makes the calls of mj_step one by one.
 void MujocoWorld::step() {
   const mjModel* m = model_.get();
   mjData* d = data_.get();
@@ -222,8 +222,8 @@ void MujocoWorld::solve() {
   }
 }
 
-/// Velocities that take overlaps back would last, and what lands would rebound: they move positions, then the rows are
-/// solved without them, and velocities are what is left (split impulses).
+/// Ends a step with split impulses. Velocities that correct overlaps would remain, and a landing body would rebound. So
+/// they only move positions; then the rows are solved without them, which gives the velocities.
 void MujocoWorld::split_step() {
   const mjModel* m = model_.get();
   mjData* d = data_.get();
@@ -238,7 +238,8 @@ void MujocoWorld::split_step() {
   std::copy(positions_.begin(), positions_.end(), d->qpos);
 }
 
-/// A row's force is (a* - J a) / R: with R = softness / dt it is that of a damper on the speed at the end of the step.
+/// Sets the softness of rows. The force of a row is (a* - J a) / R: with R = softness / dt it is a damper on the speed
+/// at the end of the step.
 void MujocoWorld::set_softness() {
   mjData& d = *data_;
   for (int i = d.ne; i < d.nefc && d.efc_type[i] == mjCNSTR_FRICTION_DOF; ++i) {
@@ -249,7 +250,7 @@ void MujocoWorld::set_softness() {
   }
 }
 
-/// What each row of constraints is to do to its speed within the step.
+/// Sets the target acceleration of each row of constraints within the step.
 void MujocoWorld::set_references() {
   mjData& d = *data_;
   if (d.ncon > 0) mj_mulJacVec(model_.get(), &d, d.efc_b, d.qacc_smooth);

@@ -5,10 +5,10 @@ namespace muro::ode {
 
 namespace {
 
-constexpr double max_distance = 0.01;  ///< m: a point that is farther from where one should be is another one
-constexpr double taken = -1;           ///< in place of the pair
+constexpr double max_distance = 0.01;  ///< m: a point that is farther from the stored place is another point
+constexpr double taken = -1;           ///< stored instead of the pair when the point has been used
 
-/// Exact as a number, and not 0.
+/// Returns a number for the pair of geoms, exact as a double and not 0.
 double pair_of(const FoundContact& c) { return double((std::uint64_t(c.first->number) << 26) + c.second->number + 1); }
 
 }  // namespace

@@ -42,16 +42,16 @@ constexpr Description ode_description = multibody::engine_description(
     feature_armature | feature_concave_meshes | feature_rolling_resistance | feature_spinning_resistance |
         feature_heightmaps);
 
-/// What engines with iterations need: they part bodies badly whose masses differ by more.
+/// Least inertia for iterative solvers: they separate bodies badly when their masses differ by more.
 const multibody::MinInertia quick_inertia{1e-3, 0.01};
-/// Of what would part a robot's joints, what iterations may leave.
+/// Largest part of the speeds at joints that may remain after the iterations.
 constexpr double most_unsolved = 1e-3;
 
-/// Its cost, which grows with the cube of the rows, is a matter for a note.
+/// Largest number of joints without a note on the cost of the exact solver, which grows with the cube of the rows.
 constexpr std::size_t many_joints = 24;
 
-/// Whether a link on the base moves what touches it, as fingers do and wheels do not: it slides, or its centre of mass
-/// is off its axis.
+/// Whether a link on the base moves the bodies that it touches, like a finger and unlike a wheel: it slides, or its
+/// centre of mass is off its axis.
 bool is_limb(const multibody::RigidBody& body) {
   if (body.parent < 0) return false;
   if (body.joint != JointKind::revolute) return true;
@@ -61,7 +61,7 @@ bool is_limb(const multibody::RigidBody& body) {
   return off_axis > 0.25 * about_axis;
 }
 
-/// Why iterations do not serve a robot, or nothing.
+/// Returns the reason why the iterative solver does not suit a robot, or an empty text.
 std::string objection_to_quick(const Connector& c, std::uint32_t item, int iterations) {
   const RobotView& robot = *c.items()[item].robot;
   const std::vector<DriveMode> modes = drive_modes_of(c, robot, c.parameters_of(item));
@@ -89,7 +89,7 @@ std::string objection_to_quick(const Connector& c, std::uint32_t item, int itera
 
 class OdeMotion final : public multibody::WorldMotion {
   const Description& description() const override { return ode_description; }
-  // Iterations part bodies badly whose masses differ by more.
+  // Iterations separate bodies badly when their masses differ by more.
   multibody::MinInertia min_inertia() const override {
     multibody::MinInertia least = settings_.exact ? multibody::MinInertia{} : quick_inertia;
     if (settings_.exact) least.box_of = [this](const Shape& s) { return ode::box_around(s, *meshes_); };

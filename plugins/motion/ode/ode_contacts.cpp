@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a world of ODE is told of its contacts, and what it tells of them.
+// Contacts of a world of ODE: their parameters before a step, and the report of their forces.
 #include <algorithm>
 #include <cmath>
 
@@ -11,17 +11,17 @@ using multibody::MotionType;
 
 namespace {
 
-constexpr double deep_softness = 0.1;               ///< of the inverse effective mass
-constexpr double resting_softness_at_1_kHz = 0.02;  ///< likewise: so soft, points of a line or face share its load
-constexpr double rebound_softness = 1e-6;           ///< likewise
-constexpr double slow_correction = 1e-2;            ///< m/s: what lands may rebound so fast
-constexpr double shallow = 1e-3;                    ///< m: overlaps that are taken back so slowly, without a SplitStep
+constexpr double deep_softness = 0.1;               ///< part of the inverse effective mass
+constexpr double resting_softness_at_1_kHz = 0.02;  ///< part of the same: points of a line or face share its load
+constexpr double rebound_softness = 1e-6;           ///< part of the same
+constexpr double slow_correction = 1e-2;            ///< m/s: a body that lands may rebound at this speed
+constexpr double shallow = 1e-3;                    ///< m: shallower overlaps get this correction, without a SplitStep
 constexpr double sliding_speed = 1e-2;              ///< m/s: friction is along the slip
-constexpr double min_slip = 1e-9;                   ///< m/s: below, a slip has no direction
-constexpr double min_load = 0.05;                   ///< of the friction: below, a load has no direction
-constexpr double at_limit = 0.98;                   ///< of the friction: what carries more may slide
-constexpr double narrowest = 0.995;                 ///< of the friction: along a load at the limit
-constexpr double near_limit = 0.9;                  ///< of the friction: what carries more is taken to be bounded by it
+constexpr double min_slip = 1e-9;                   ///< m/s: a slower slip has no direction
+constexpr double min_load = 0.05;                   ///< part of the friction: a smaller load has no direction
+constexpr double at_limit = 0.98;                   ///< part of the friction: a contact with more load may slide
+constexpr double narrowest = 0.995;                 ///< part of the friction: along a load at the limit
+constexpr double near_limit = 0.9;                  ///< part of the friction: a larger load counts as limited by it
 
 Vec3 spin_of(dGeomID geom) {
   const dBodyID body = dGeomGetBody(geom);
@@ -39,8 +39,8 @@ double OdeWorld::inverse_mass_of(const FoundContact& found) const {
   return sum;
 }
 
-/// Friction is spread over lines and faces. Their points are alike soft, so that they share the load as the pressure
-/// over it does.
+/// Spreads friction over lines and faces. Their points get the same softness, so that they share the load in the way of
+/// a pressure over the patch.
 void OdeWorld::find_patches() {
   FoundContact* const all = found_contacts_.data();
   const auto belongs = [&](std::size_t begin, std::size_t i) {
@@ -74,7 +74,7 @@ void OdeWorld::describe_contacts() {
     found.velocity = vector_of(of_first) - vector_of(of_second);
     robot.history().recall(found);
     found.spin = found.normal().dot(spin_of(geom.g1) - spin_of(geom.g2));
-    found.contact.surface.mode = dContactApprox1;  // what it does not name is not read
+    found.contact.surface.mode = dContactApprox1;  // ODE does not read fields without a flag in the mode
     const Surface pair = pair_surface(found.first->surface, found.second->surface, settings_.friction_rule);
     found.friction = pair.friction;
     describe_normal(found, pair.restitution);
@@ -89,7 +89,8 @@ void OdeWorld::describe_contacts() {
   }
 }
 
-/// The CFM, in 1/(N s/m): ODE adds it, over the time step, to the inverse effective mass.
+/// Sets the normal direction. The CFM is in 1/(N s/m): ODE divides it by the time step and adds it to the inverse
+/// effective mass.
 void OdeWorld::describe_normal(FoundContact& found, double restitution) const {
   dSurfaceParameters& surface = found.contact.surface;
   const double approach = -found.velocity.dot(found.normal()),
@@ -97,7 +98,7 @@ void OdeWorld::describe_normal(FoundContact& found, double restitution) const {
   found.is_rebound = restitution > 0 && approach > settings_.bounce_speed;
   const bool is_fast = !found.is_rebound && correction > slow_correction;
   found.splits = is_fast && found.contact.geom.depth > shallow;
-  // What is deep in a body is often pushed from several sides at once, which no forces can fulfil.
+  // A body deep inside another is often pushed from several sides at once; no forces can fulfil that.
   double softness = resting_softness(found);
   if (found.is_rebound)
     softness = std::min(softness, rebound_softness);
@@ -116,8 +117,8 @@ void OdeWorld::describe_normal(FoundContact& found, double restitution) const {
   surface.soft_erp = 0;
 }
 
-/// Robots on wheels, and what spins on a face, sink in by some micrometres, at any rate, also light links that carry a
-/// robot.
+/// Returns a softness with which robots on wheels, and bodies that spin on a face, sink in by some micrometres at any
+/// rate. This holds for light links that carry a robot, too.
 double OdeWorld::resting_softness(const FoundContact& found) const {
   constexpr double points = 6;
   const OdeRobot& robot = robots_[std::size_t(found.first->robot)];
@@ -128,9 +129,9 @@ double OdeWorld::resting_softness(const FoundContact& found) const {
                                           std::min(1.0, points / (lightest * found.inverse_mass)));
 }
 
-/// m/s, for a velocity that belongs to the middle of the step, as all of them do. The impact was earlier in the step:
-/// bodies have been pulled together for their depth since, and part with what Newton's law leaves of the energy that
-/// they had there, plus what the pull takes from them on their way back.
+/// m/s: rebound speed, for velocities that belong to the middle of the step, like all velocities here. The impact was
+/// earlier in the step. Since then bodies have been pulled together along their depth. They separate with the energy
+/// that Newton's law leaves at the impact, plus the energy that the pull takes on the way back.
 double OdeWorld::rebound_speed(const FoundContact& found, double restitution, double approach) const {
   Vec3 acceleration = Vec3::Zero();
   for (const GeomOwner* owner : {found.first, found.second})
@@ -143,9 +144,9 @@ double OdeWorld::rebound_speed(const FoundContact& found, double restitution, do
   return std::max(0.0, std::sqrt(std::max(0.0, restitution * restitution * in + of_depth)) - half_step);
 }
 
-/// ODE bounds friction along two directions, each for itself. What slides has friction along its slip and none across
-/// it. What holds has it along the load of the step before, within a rectangle that the circle of friction contains,
-/// and that is the narrower the nearer the load is to the limit.
+/// ODE limits friction along two directions separately. A sliding contact has friction along its slip and none across
+/// it. A holding contact has friction along the load of the last step, within a rectangle inside the circle of
+/// friction. The nearer the load is to the limit, the narrower is the rectangle.
 void OdeWorld::describe_friction(FoundContact& found) const {
   dSurfaceParameters& surface = found.contact.surface;
   surface.mode |= dContactMu2 | dContactSlip1 | dContactSlip2;
@@ -183,10 +184,10 @@ void OdeWorld::describe_friction(FoundContact& found) const {
   surface.motion2 = back.dot(normal.cross(first));
 }
 
-/// Where a patch spins, friction acts in the middle of a cell. ODE has it at the point: there it gets the speed of the
-/// middle, and what it does too much of about the normal is that of the step before. The ends of the cell move against
-/// its middle, and as long as they move faster than that, the cell does as much less than its limit as its middle is
-/// slower: it gives way by that.
+/// Moves friction to the middle of the cell when a patch spins. ODE applies friction at the point, so the point gets
+/// the speed of the middle, and the moment about the normal is corrected with the friction of the last step. The ends
+/// of the cell move relative to its middle. While the middle is slower than the ends, friction of the cell is reduced
+/// by the ratio of these speeds: its rows are softened for this.
 void OdeWorld::move_friction(FoundContact& found) const {
   found.moment.setZero();
   const double ends = found.speed_of_ends();
@@ -197,7 +198,7 @@ void OdeWorld::move_friction(FoundContact& found) const {
     surface.mode |= dContactFDir1;
     std::copy_n(against.normalized().eval().data(), 3, found.contact.fdir1);
   }
-  if ((surface.mode & dContactFDir1) != 0) {  // what spins has no drift to take back
+  if ((surface.mode & dContactFDir1) != 0) {  // a spinning patch has no drift to correct
     const Vec3 first = vector_of(found.contact.fdir1);
     surface.mode |= dContactMotion1 | dContactMotion2;
     surface.motion1 = against.dot(first);
@@ -217,7 +218,7 @@ void OdeWorld::move_friction(FoundContact& found) const {
   add(found.contact.geom.g2, -found.moment);
 }
 
-/// As the contact is in the second part of a SplitStep.
+/// Sets the contact for the second pass of a SplitStep.
 void OdeWorld::leave_overlap(FoundContact& found) const {
   dSurfaceParameters& surface = found.contact.surface;
   surface.mode |= dContactSoftERP;
@@ -236,7 +237,7 @@ bool OdeWorld::moves(const GeomOwner& owner) const {
   return owner.robot >= 0 && robots_[std::size_t(owner.robot)].motion_type() == MotionType::dynamic;
 }
 
-/// To one of the two robots. ODE's torque is about the centre of mass.
+/// Reports the contact to one of the two robots. ODE's torque is about the centre of mass.
 void OdeWorld::tell_contact(const FoundContact& found, bool to_first) {
   const GeomOwner &self = to_first ? *found.first : *found.second, &other = to_first ? *found.second : *found.first;
   const dContactGeom& geom = found.contact.geom;
@@ -247,7 +248,7 @@ void OdeWorld::tell_contact(const FoundContact& found, bool to_first) {
   if (settings_.reactions) {
     told.wrench.force = vector_of(to_first ? found.feedback.f1 : found.feedback.f2);
     const dBodyID body = dGeomGetBody(to_first ? geom.g1 : geom.g2);
-    const Vec3 centre = vector_of(dBodyGetPosition(body)) - dt_ * vector_of(dBodyGetLinearVel(body));  // as it was then
+    const Vec3 centre = vector_of(dBodyGetPosition(body)) - dt_ * vector_of(dBodyGetLinearVel(body));  // at the start
     told.wrench.torque = found.torque(to_first) - (point - centre).cross(told.wrench.force);
   } else {
     told.wrench.force.setConstant(NAN);
@@ -256,7 +257,8 @@ void OdeWorld::tell_contact(const FoundContact& found, bool to_first) {
   state.contacts.push_back(told);
 }
 
-/// What is left of the slip of a contact that holds, or all but holds, adds to its drift.
+/// Stores the contact for the next step. The remaining slip of a contact that holds, or nearly holds, adds to its
+/// drift.
 void OdeWorld::remember(FoundContact& found) {
   if (found.friction == 0) return;
   const Vec3 normal = found.normal(), force = found.force();
@@ -267,7 +269,7 @@ void OdeWorld::remember(FoundContact& found) {
     const dBodyID body = dGeomGetBody(geom);
     if (!body) return Vec3::Zero();
     const Vec3 velocity = vector_of(dBodyGetLinearVel(body));
-    const Vec3 centre = vector_of(dBodyGetPosition(body)) - dt_ * velocity;  // as it was
+    const Vec3 centre = vector_of(dBodyGetPosition(body)) - dt_ * velocity;  // at the start
     return velocity + vector_of(dBodyGetAngularVel(body)).cross(point - centre);
   };
   const double spin = normal.dot(spin_of(found.contact.geom.g1) - spin_of(found.contact.geom.g2));
@@ -281,7 +283,7 @@ void OdeWorld::remember(FoundContact& found) {
     found.bound =
         part > near_limit ? std::clamp(narrowest * found.bound / part, 0.3, 1.0) : 1 + 0.9 * (found.bound - 1);
   }
-  // The direct solver leaves no slip but where friction is at its limit: that is none to take back.
+  // The direct solver leaves slip only where friction is at its limit. Such slip is not corrected.
   if (slip.norm() < sliding_speed && !(settings_.exact && part > at_limit)) {
     found.drift += dt_ * slip;
     const double most = sliding_speed * dt_, far = found.drift.norm();

@@ -8,7 +8,7 @@
 
 namespace muro::ode {
 
-/// Triangles as ODE takes them. It refers to them, so they stay where they are.
+/// Triangles for ODE. ODE points to them, so they keep their addresses.
 struct TriangleMesh {
   explicit TriangleMesh(mesh::Mesh of_file) : mesh(std::move(of_file)), data(dGeomTriMeshDataCreate()) {
     static_assert(sizeof(mesh::Triangle) == 3 * sizeof(dTriIndex) && sizeof(Vec3) == 3 * sizeof(double));

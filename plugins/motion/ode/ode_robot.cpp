@@ -30,10 +30,11 @@ void set_velocity(dBodyID body, const Vec3& v, const Vec3& w) {
 
 dReal ode_effort(double max_effort) { return std::isfinite(max_effort) ? max_effort : dInfinity; }
 
-/// `angle` brought to [-pi, pi].
+/// Returns `angle` wrapped to [-pi, pi].
 double wrapped(double angle) { return angle - 2 * M_PI * std::nearbyint(angle / (2 * M_PI)); }
 
-/// ODE normalises what is set, which can change the last bit of what is normalised already.
+/// Whether ODE leaves the quaternion unchanged. ODE normalises what is set, and this can change the last bit of a unit
+/// quaternion.
 bool is_normalized(const dReal* q) {
   if (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] == 1) return true;
   dQuaternion normalized = {q[0], q[1], q[2], q[3]};
@@ -41,7 +42,7 @@ bool is_normalized(const dReal* q) {
   return std::equal(normalized, normalized + 4, q);
 }
 
-/// Of a joint in mode effort, what drives it may bring a rotor.
+/// Whether a joint may have a rotor: its drive may set one in mode effort.
 bool may_have_rotor(const RigidBody& body) {
   return body.limits.armature > 0 ||
          (body.joint != JointKind::fixed && body.drive == DriveMode::effort && body.leader < 0);
@@ -81,7 +82,7 @@ OdeRobot::OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& 
                   std::none_of(model.bodies.begin(), model.bodies.end(), slides)),
       history_(state.memory.last(ContactHistory::size_of(model))),
       body_states_(model.bodies.size()) {
-  multibody::RobotState zero;  // joints are made where all of them are at 0
+  multibody::RobotState zero;  // joints are created with all positions at 0
   zero.joints.resize(model.bodies.size());
   forward_kinematics(model, zero, body_states_);
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
@@ -138,7 +139,8 @@ void OdeRobot::add_joint(std::size_t number) {
   }
   b.only_rotates = body.joint == JointKind::revolute;
   if (!b.only_rotates) bodies_[std::size_t(body.parent)].only_rotates = false;
-  // At a stop, the motor of a hinge or slider of ODE gives all its effort whatever the speed: it needs one of its own.
+  // At a stop, the motor of ODE's hinge or slider gives its full effort at any speed. So a joint with stops gets its
+  // own motor.
   if (std::isfinite(body.limits.lower) || std::isfinite(body.limits.upper)) b.drive = create_motor(number, axis);
   if (damping > 0 || may_have_rotor(body)) b.damper = create_motor(number, axis);
   if (keeps_rotors_ && may_have_rotor(body)) dJointSetFeedback(b.damper, &b.of_damper);
@@ -160,7 +162,7 @@ void OdeRobot::add_joint(std::size_t number) {
   if (!b.has_far_stops) set_stops(b, body.joint, body.limits.lower, body.limits.upper);
 }
 
-/// A motor along or about `axis` (world) of the joint of a body.
+/// Creates a motor along or about `axis` (world) of the joint of a body.
 dJointID OdeRobot::create_motor(std::size_t number, const Vec3& axis) const {
   const RigidBody& body = model_->bodies[number];
   const bool turns = body.joint == JointKind::revolute;
@@ -189,9 +191,9 @@ Vec3 OdeRobot::free_acceleration(std::size_t number) const {
   return settings_.gravity + vector_of(dBodyGetForce(bodies_[number].id)) / model_->bodies[number].inertia.mass;
 }
 
-/// 1/kg or 1/(kg m^2): of what the joint of each body moves. The exact solver holds what hangs on a joint as one body,
-/// which may be far heavier than the body next to it. With the quick one that is too hard for its iterations, so there
-/// the two bodies count alone.
+/// 1/kg or 1/(kg m^2): inverse inertia that the joint of each body moves. For the exact solver all links behind a joint
+/// count as one body, which may be far heavier than the body next to the joint. This is too stiff for the iterations of
+/// the quick solver: there only the two bodies at the joint count.
 std::vector<double> OdeRobot::inverse_joint_inertias() const {
   const auto& bodies = model_->bodies;
   std::vector<Inertia> moved(bodies.size());  // in the frame of each body
@@ -263,9 +265,9 @@ void OdeRobot::import() {
   }
 }
 
-/// A rotor (kg m^2 or kg) is a damper against its present speed, of armature / dt: it takes the impulse
-/// armature (v - v') within the step, whatever drives the joint. With iterations, which do not end where joint and
-/// rotor have one speed, it keeps its own: what they leave would else be energy that the rotor gets from nothing.
+/// Models a rotor (kg m^2 or kg) as a damper relative to its present speed, of armature / dt. It takes the impulse
+/// armature (v - v') within the step, whatever drives the joint. Iterations do not end with equal speeds of joint and
+/// rotor, so there the rotor keeps its own speed. Otherwise the rotor would gain energy from the remaining error.
 void OdeRobot::set_rotor(std::size_t number, double armature) {
   OdeBody& b = bodies_[number];
   const RigidBody& body = model_->bodies[number];
@@ -282,7 +284,7 @@ void OdeRobot::set_rotor(std::size_t number, double armature) {
 
 double& OdeRobot::rotor_speed(std::size_t number) const { return state_->memory[numbers * bodies_.size() + number]; }
 
-/// rad/s or m/s, after the step: that which the effort of its damper leaves it.
+/// rad/s or m/s: speed of the rotor after the step, from the effort of its damper.
 double OdeRobot::speed_of_rotor(std::size_t number) const {
   const OdeBody& b = bodies_[number];
   if (b.armature == 0) return state_->joints[number].velocity;
@@ -301,7 +303,7 @@ void OdeRobot::set_bodies_from_state() {
   }
 }
 
-/// A step begins with the same bits whether bodies are placed here or have stayed where the last step left them: see
+/// Places bodies from the memory. A step begins with the same bits as when bodies stay where the last step ended: see
 /// export_state().
 void OdeRobot::set_bodies_from_memory() {
   const double* m = state_->memory.data();
@@ -350,11 +352,11 @@ void OdeRobot::set_stops(const OdeBody& body, JointKind kind, double low, double
   const auto set = kind == JointKind::revolute ? &dJointSetHingeParam : &dJointSetSliderParam;
   set(body.joint, dParamLoStop, std::isfinite(low) ? low : -dInfinity);
   set(body.joint, dParamHiStop, std::isfinite(high) ? high : dInfinity);
-  set(body.joint, dParamLoStop, std::isfinite(low) ? low : -dInfinity);  // not taken while it is above the other
+  set(body.joint, dParamLoStop, std::isfinite(low) ? low : -dInfinity);  // ignored while above the other
 }
 
-/// ODE knows the angle of a hinge up to whole turns: a stop that is farther off than half a turn is set when it is
-/// near.
+/// Sets the stops that are near. ODE knows the angle of a hinge only up to whole turns, so a stop that may be more than
+/// half a turn away is set only when it is near.
 void OdeRobot::set_near_stops(std::size_t number) const {
   const JointLimits& l = model_->bodies[number].limits;
   const double q = state_->joints[number].position;
@@ -365,7 +367,8 @@ void OdeRobot::set_near_stops(std::size_t number) const {
             near(l.upper) ? wrapped(l.upper) : infinity);
 }
 
-/// What its joints need: pose and twist of a base and of bodies on sliders, the rotation of the others.
+/// Returns the state that its joints need: pose and twist of a base and of bodies on sliders, the rotation of the
+/// others.
 BodyState OdeRobot::body_state_of(std::size_t number) const {
   const OdeBody& b = bodies_[number];
   const double* const memory = state_->memory.data() + numbers * number;
@@ -403,7 +406,7 @@ void OdeRobot::export_state(double dt) {
   }
 }
 
-/// ODE has changed the spin by torques alone; what it has made of the orientation is replaced.
+/// Replaces ODE's orientation. ODE has changed the spin by torques only.
 void OdeRobot::rotate_exactly(double dt) {
   const OdeBody& b = bodies_[0];
   multibody::FreeRotation free{b.start, vector_of(dBodyGetAngularVel(b.id))};
@@ -420,7 +423,7 @@ void OdeRobot::export_joint(std::size_t number, double dt) {
   JointState& joint = state_->joints[number];
   const Vec3 axis = child.pose.orientation * body.axis;
   const OdeBody& b = bodies_[number];
-  // forces are those of the pose at which the step began
+  // forces belong to the pose at the start of the step
   const Vec3 effort_axis = b.start * body.axis;
   const Vec3 force = vector_of(b.feedback.f1), torque = vector_of(b.feedback.t1);
   if (body.joint == JointKind::revolute) {
@@ -431,7 +434,7 @@ void OdeRobot::export_joint(std::size_t number, double dt) {
     joint.velocity = axis.dot(child.twist.angular - parent.twist.angular);
     if (settings_.reactions) joint.effort = effort_axis.dot(torque + Vec3(b.start * b.com).cross(force));
   } else {
-    const Vec3 zero = parent.pose * body.origin.position;  // where the child is with the joint at 0
+    const Vec3 zero = parent.pose * body.origin.position;  // position of the child with the joint at 0
     joint.position = axis.dot(child.pose.position - zero);
     joint.velocity = axis.dot(child.twist.linear - parent.twist.at(child.pose.position - parent.pose.position));
     joint.effort = effort_axis.dot(force);

@@ -11,31 +11,32 @@ namespace muro::ode {
 
 class OdeRobot {
  public:
-  /// How many numbers a robot keeps from step to step: poses and velocities of its bodies; with iterations, speeds of
-  /// its rotors; its contacts.
+  /// Number of values that a robot keeps from step to step: poses and velocities of its bodies, its contacts and, with
+  /// iterations, speeds of its rotors.
   static std::size_t memory_of(const multibody::RobotModel& model, bool exact);
 
-  /// `space`: for its geoms. `owners`: those of all geoms of the world, to which it adds its own.
+  /// `space`: space for its geoms. `owners`: owners of all geoms of the world; the robot adds its own.
   OdeRobot(dWorldID world, dSpaceID space, const multibody::RobotModel& model, multibody::RobotState& state,
            std::int32_t number, std::deque<GeomOwner>& owners, const OdeMeshes& meshes, const OdeSettings& settings);
-  /// Steps take `dt` (s) from now on: see OdeSettings::softness.
+  /// Sets the length `dt` (s) of the next steps: see OdeSettings::softness.
   void set_step(double dt);
 
   /// Places bodies and sets forces and drives for a step.
   void import();
-  /// Takes over what the step made of it.
+  /// Takes over the results of the step.
   void export_state(double dt);
-  /// Adds what a contact did to the body that `owner` names: force (N) and torque (N m) about its centre of mass.
+  /// Adds force (N) and torque (N m, about the centre of mass) of a contact to the body that `owner` names.
   void add_contact(const GeomOwner& owner, const Vec3& force, const Vec3& torque);
 
   const multibody::RobotModel& model() const { return *model_; }
   multibody::RobotState& state() const { return *state_; }
   multibody::MotionType motion_type() const { return motion_type_; }
-  /// 1/kg: of a contact at `point` with `normal` (unit) on a body that no joint holds; world axes.
+  /// 1/kg: inverse effective mass of a contact at `point` with `normal` (unit), as if no joint held the body; world
+  /// axes.
   double inverse_effective_mass(std::size_t body, const Vec3& point, const Vec3& normal) const;
-  /// m/s^2: of the body's centre of mass by gravity and what acts on it from outside, without joints and contacts.
+  /// m/s^2: acceleration of the body's centre of mass by gravity and external forces, without joints and contacts.
   Vec3 free_acceleration(std::size_t body) const;
-  /// Cylinders or meshes of it turn without end, and nothing slides.
+  /// Whether cylinders or meshes of it turn without limits, and no joint is prismatic.
   bool has_wheels() const { return has_wheels_; }
   std::size_t body_count() const { return bodies_.size(); }
   dBodyID body_id(std::size_t body) const { return bodies_[body].id; }
@@ -44,24 +45,24 @@ class OdeRobot {
   const std::vector<dGeomID>& geoms() const { return geoms_; }
 
  private:
-  static constexpr std::size_t numbers = 13;  ///< of a body: position, orientation, velocity, spin
+  static constexpr std::size_t numbers = 13;  ///< values of a body: position, orientation, velocity, spin
 
   struct OdeBody {
     dBodyID id = nullptr;
     Vec3 com = Vec3::Zero();                                      ///< in the frame of the body
-    Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();  ///< about it, axes of the body
-    dJointID joint = nullptr;                                     ///< that moves it; none for the base
-    dJointID drive = nullptr;                      ///< of a joint with stops; none: `joint` drives itself
-    dJointID damper = nullptr;                     ///< none where there is neither damping nor a rotor
-    double armature = 0;                           ///< kg m^2 or kg: what the damper was told last
-    double damper_speed = 0, damper_cfm = 0;       ///< likewise
-    dJointFeedback of_damper{};                    ///< where the speed of a rotor is kept
-    double velocity = 0, max_effort = 0, cfm = 0;  ///< what the drive was told last
-    double least_cfm = 0;                          ///< of the joint: see OdeSettings::softness
-    Quat start = Quat::Identity();                 ///< orientation when the step began
-    bool only_rotates = false;                     ///< on a hinge, and carries no slider: its position is not asked for
+    Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();  ///< about the centre of mass, axes of the body
+    dJointID joint = nullptr;                                     ///< joint that moves it; none for the base
+    dJointID drive = nullptr;                      ///< motor of a joint with stops; none: `joint` drives itself
+    dJointID damper = nullptr;                     ///< none when there is neither damping nor a rotor
+    double armature = 0;                           ///< kg m^2 or kg: last value set in the damper
+    double damper_speed = 0, damper_cfm = 0;       ///< last values set in the damper
+    dJointFeedback of_damper{};                    ///< when the speed of a rotor is kept
+    double velocity = 0, max_effort = 0, cfm = 0;  ///< last values set in the drive
+    double least_cfm = 0;                          ///< softness of the joint: see OdeSettings::softness
+    Quat start = Quat::Identity();                 ///< orientation at the start of the step
+    bool only_rotates = false;                     ///< on a hinge, and carries no slider: its position is not needed
     bool has_far_stops = false;                    ///< see set_near_stops
-    dJointFeedback feedback{};                     ///< of what drives the joint
+    dJointFeedback feedback{};                     ///< force and torque of the drive
   };
 
   static bool keeps_rotors(const multibody::RobotModel& model, bool exact);
@@ -88,13 +89,13 @@ class OdeRobot {
   const multibody::RobotModel* model_;
   multibody::RobotState* state_;
   OdeSettings settings_;
-  double dt_ = 0;                 ///< s, of a step
+  double dt_ = 0;                 ///< s, length of a step
   bool rotates_exactly_ = false;  ///< see OdeSettings::exact_attitude
-  bool keeps_rotors_ = false;     ///< their speeds are in the memory
+  bool keeps_rotors_ = false;     ///< speeds of rotors are in the memory
   bool has_wheels_ = false;
   multibody::MotionType motion_type_ = multibody::MotionType::dynamic;
   std::deque<OdeBody> bodies_;        ///< one per body
-  bool bodies_match_memory_ = false;  ///< they are where the memory says
+  bool bodies_match_memory_ = false;  ///< bodies have the state of the memory
   ContactHistory history_;
   std::vector<dGeomID> geoms_;
   std::vector<multibody::BodyState> body_states_;

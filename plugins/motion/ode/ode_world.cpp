@@ -14,13 +14,13 @@ using multibody::MotionType;
 
 namespace {
 
-/// ODE keeps one random number generator a process, so its worlds take their steps one behind the other.
+/// ODE has one random number generator per process, so its worlds make their steps one after the other.
 std::mutex& step_mutex() {
   static std::mutex mutex;
   return mutex;
 }
 
-/// ODE cannot destroy what an error has left half done: it stays.
+/// Keeps objects that ODE cannot destroy after an error has left them half done.
 void abandon(std::vector<void*> parts) {
   static std::mutex mutex;
   static auto& abandoned = *new std::vector<std::vector<void*>>;
@@ -28,7 +28,7 @@ void abandon(std::vector<void*> parts) {
   abandoned.push_back(std::move(parts));
 }
 
-constexpr int max_contacts = 8;  ///< of two geoms
+constexpr int max_contacts = 8;  ///< per pair of geoms
 
 }  // namespace
 
@@ -38,7 +38,7 @@ OdeWorld::OdeWorld(const OdeSettings& settings, std::shared_ptr<const OdeMeshes>
   start_library();
   prepare_this_thread();
   world_ = dWorldCreate();
-  // Its own, for a failure leaves it with a step half done.
+  // The world has its own threading, because a failure leaves a step half done.
   threading_ = dThreadingAllocateSelfThreadedImplementation();
   dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_), threading_);
   dWorldSetGravity(world_, settings.gravity.x(), settings.gravity.y(), settings.gravity.z());
@@ -172,7 +172,8 @@ void OdeWorld::advance(double dt) {
   });
 }
 
-/// The softness of what has none of its own, the rows that hold joints together, is that of the heaviest body.
+/// Sets the length of the steps. Rows without a softness of their own, which hold joints together, get that of the
+/// heaviest body.
 void OdeWorld::set_step(double dt) {
   dt_ = dt;
   double heaviest = 0;
@@ -182,7 +183,8 @@ void OdeWorld::set_step(double dt) {
   for (OdeRobot& r : robots_) r.set_step(dt);
 }
 
-/// Bodies go where the step with corrections of overlaps has brought them, with the velocities of one without.
+/// Makes the second pass of a SplitStep: bodies get the positions of the step with overlap correction and the
+/// velocities of the step without it.
 void OdeWorld::step_again(double dt) {
   dJointGroupEmpty(contact_joints_);
   split_step_.begin_again(robots_);
@@ -204,7 +206,7 @@ void OdeWorld::step_world(double dt) {
   if (!succeeded) throw Error("ODE has no memory for a step");
 }
 
-/// Pairs of geoms whose boxes overlap and of which at least one belongs to a robot that the world moves.
+/// Finds pairs of geoms whose boxes overlap. At least one geom of a pair belongs to a robot that the world moves.
 void OdeWorld::find_pairs() {
   pairs_.clear();
   for (const OdeRobot& r : robots_) {
@@ -229,7 +231,7 @@ void OdeWorld::near_callback(void* self, dGeomID a, dGeomID b) {
     static_cast<OdeWorld*>(self)->add_pair(a, b);
 }
 
-/// ODE does not look whether geoms of two spaces are enabled.
+/// Adds a pair of enabled geoms. ODE does not check whether geoms of two spaces are enabled.
 void OdeWorld::add_pair(dGeomID a, dGeomID b) {
   if (!dGeomIsEnabled(a) || !dGeomIsEnabled(b)) return;
   const GeomOwner *first = &owner_of(a), *second = &owner_of(b);
@@ -240,7 +242,7 @@ void OdeWorld::add_pair(dGeomID a, dGeomID b) {
   if (may_collide(*first, *second)) pairs_.push_back({a, b, first->number, second->number});
 }
 
-/// `a` belongs to a robot.
+/// Whether two geoms may collide. `a` belongs to a robot.
 bool OdeWorld::may_collide(const GeomOwner& a, const GeomOwner& b) const {
   const OdeRobot& robot = robots_[std::size_t(a.robot)];
   if (b.robot == a.robot)
@@ -276,7 +278,7 @@ int OdeWorld::collide_with_terrain(const Pair& pair, FoundContact* found) {
   return count;
 }
 
-/// Writes what is found into elements that are there already, from step to step.
+/// Finds contacts. Elements of the array are reused from step to step.
 void OdeWorld::find_contacts() {
   contact_count_ = 0;
   for (const Pair& p : pairs_) {

@@ -10,8 +10,8 @@ namespace muro::ode {
 
 /// A world of ODE.
 ///
-/// A step follows from the state of the robots alone: poses of bodies are set anew in each, contacts are made in the
-/// order of their geoms, and the random numbers with which ODE's solver shuffles its rows begin anew.
+/// A step depends only on the state of the robots. In each step poses of bodies are set anew, contacts are made in the
+/// order of their geoms, and the random numbers with which ODE's solver shuffles its rows start anew.
 class OdeWorld final : public multibody::World {
  public:
   OdeWorld(const OdeSettings& settings, std::shared_ptr<const OdeMeshes> meshes, std::shared_ptr<MessageLog> messages);
@@ -62,7 +62,7 @@ class OdeWorld final : public multibody::World {
   void remember(FoundContact& found);
   void export_contacts();
   GeomOwner& set_owner(dGeomID geom, const multibody::BodyShape& shape);
-  /// Calls of ODE, with its errors as exceptions.
+  /// Calls ODE and turns its errors into exceptions.
   template <class Work>
   void guarded(const Work& work);
 
@@ -70,17 +70,17 @@ class OdeWorld final : public multibody::World {
   double dt_ = 0;
   std::shared_ptr<const OdeMeshes> meshes_;
   std::shared_ptr<MessageLog> messages_;
-  bool has_failed_ = false;  ///< ODE has: nothing of it can be used or destroyed
+  bool has_failed_ = false;  ///< after an error of ODE, nothing of it can be used or destroyed
   dThreadingImplementationID threading_ = nullptr;
   dWorldID world_ = nullptr;
   dJointGroupID contact_joints_ = nullptr;
   dSpaceID static_space_ = nullptr, kinematic_space_ = nullptr, robot_space_ = nullptr;
-  std::vector<dGeomID> grounds_;  ///< planes, also those that stand for heightmaps
+  std::vector<dGeomID> grounds_;  ///< planes, including those that represent heightmaps
   std::deque<GeomOwner> owners_;
   std::deque<KinematicBody> kinematic_bodies_;
   std::deque<OdeRobot> robots_;
   std::vector<Pair> pairs_;
-  std::vector<FoundContact> found_contacts_;  ///< the first `contact_count_` count
+  std::vector<FoundContact> found_contacts_;  ///< the first `contact_count_` are valid
   std::size_t contact_count_ = 0;
   SplitStep split_step_;
 };

@@ -20,7 +20,7 @@ struct FreeBody {
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
 };
 
-/// One degree of freedom that a joint takes away: a speed of the first body over the second.
+/// One degree of freedom that a joint removes: a speed of the first body relative to the second.
 struct Row {
   FreeBody *first, *second;
   Vec3 linear, first_angular, second_angular;
@@ -50,7 +50,7 @@ class Joints {
     for (std::size_t i = 1; i < bodies_.size(); ++i) add_joint(model.bodies[i], i, states[i].pose);
   }
 
-  /// Energy of all speeds that joints forbid, each by itself.
+  /// Sum of the energies of all speeds that joints forbid, each taken alone.
   double energy() const {
     double sum = 0;
     for (const Row& r : rows_) sum += r.speed() * r.speed() / r.inverse_effective_mass;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which solver motion.ode chooses, and that it holds what it is for. What every motion owes is tested in
+// Tests of the solver that motion.ode chooses, and of the robots that it must hold. Tests for every motion are in
 // tests/conformance.
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ RigidBody link(std::int32_t parent, const Vec3& offset, const Inertia& inertia) 
   return body;
 }
 
-/// A base with `count` wheels on it.
+/// A base with `count` wheels.
 RobotModel vehicle(int count, double wheel_mass) {
   RobotModel model;
   model.bodies.push_back(link(-1, Vec3::Zero(), solid_box(4, {0.5, 0.4, 0.1})));
@@ -35,7 +35,7 @@ RobotModel vehicle(int count, double wheel_mass) {
   return model;
 }
 
-/// Links of 1 kg one on the other, `tip` (kg) at the end.
+/// A chain of links of 1 kg, with `tip` (kg) at the end.
 RobotModel chain(int count, double tip) {
   RobotModel model;
   model.bodies.push_back(link(-1, Vec3::Zero(), solid_box(1, {0.1, 0.1, 0.1})));
@@ -54,7 +54,7 @@ TEST(QuickConvergence, IsThatOfWheelsAndNotThatOfChains) {
   EXPECT_GT(unsolved_part(chain(20, 1), 10), unsolved_part(chain(20, 1), 100));
 }
 
-/// A wall of 1 kg with handles of 64 g far from its middle, each of a stiff hinge, as a wall of valves has them.
+/// A wall of 1 kg with handles of 64 g far from its middle, each on a stiff hinge, like a wall with valves.
 RobotTree valve_wall() {
   return test::tree_of([](RobotBuilder& b) {
     b.base("wall");
@@ -79,7 +79,7 @@ RobotTree valve_wall() {
 }
 
 TEST(OdeSolver, LightLinksFarFromTheBodyThatHoldsThemStayOnIt) {
-  // iterations throw them away with kilometres per second
+  // iterations throw the handles away at kilometres per second
   test::Scene s;
   s.add_ground(0.8);
   const RobotView& r = s.add("wall", valve_wall(), {{0, 0, 0.5}, Quat::Identity()});
@@ -97,7 +97,7 @@ TEST(OdeSolver, LightLinksFarFromTheBodyThatHoldsThemStayOnIt) {
   EXPECT_LT(s.twist(r).linear.norm(), 0.1);
 }
 
-/// A box of 1 kg with three arms of 12 g, whose servos have rotors with a thousand times the inertia of an arm.
+/// A box of 1 kg with three arms of 12 g. The rotors of their servos have a thousand times the inertia of an arm.
 RobotTree servos() {
   return test::tree_of([](RobotBuilder& b) {
     const Shape box = Shape::box({0.1, 0.1, 0.1});

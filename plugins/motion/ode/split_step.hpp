@@ -7,23 +7,25 @@
 
 namespace muro::ode {
 
-/// ODE corrects overlaps by velocities, which would last: what lands would rebound. So a step in which contacts push
-/// bodies out is taken twice, with and without that: positions are those of the first time, velocities and forces
-/// those of the second. Only robots that are pushed, or touch some that are, take part in the second.
+/// ODE corrects overlaps by velocities. These would remain, and a landing body would rebound. So a step in which
+/// contacts push bodies out is made twice. The first pass has the correction and gives the positions. The second has
+/// none and gives velocities and forces. Only robots that are pushed, or that touch pushed ones, take part in the
+/// second.
 class SplitStep {
  public:
   void resize(const std::deque<OdeRobot>& robots);
-  /// Before the step: keeps the state of all bodies.
+  /// Keeps the state of all bodies before the step.
   void keep_start(const std::deque<OdeRobot>& robots);
-  /// After it: whether some contact has pushed out what overlaps, and which robots it concerns.
+  /// Finds the robots that contacts have pushed out of an overlap. Returns whether there are any. Call it after the
+  /// step.
   bool find_pushed(const std::deque<OdeRobot>& robots, std::span<const FoundContact> contacts);
   bool is_pushed(const FoundContact& contact) const {
     return pushed_[std::size_t(contact.first->robot)] ||
            (contact.second->robot >= 0 && pushed_[std::size_t(contact.second->robot)]);
   }
-  /// Sets these robots back, and leaves the others out of what follows.
+  /// Sets these robots back, and disables the others for the second pass.
   void begin_again(const std::deque<OdeRobot>& robots);
-  /// Places bodies where the first time has brought them.
+  /// Places bodies at the positions of the first pass.
   void end(const std::deque<OdeRobot>& robots);
 
  private:
@@ -32,8 +34,8 @@ class SplitStep {
     dQuaternion orientation;
   };
 
-  std::vector<Body> bodies_;  ///< of all robots: where the step begins, then where it ends
-  std::vector<char> pushed_;  ///< of each robot
+  std::vector<Body> bodies_;  ///< bodies of all robots at the start of the step, then at its end
+  std::vector<char> pushed_;  ///< one per robot
 };
 
 }  // namespace muro::ode

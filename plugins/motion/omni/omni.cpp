@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vehicles with mecanum or omni wheels: three or more wheels with rollers, whose speeds give any velocity in the plane.
+// Vehicles with mecanum or omni wheels: three or more wheels with rollers. Their speeds give any velocity in the plane.
 #include "plugins/common/wheels/omni_jacobian.hpp"
 #include "plugins/motion/common/wheel_motion/wheel_motion.hpp"
 

@@ -25,7 +25,7 @@ std::vector<WheelPart> mecanum_wheels() {
           {.name = "rr", .at = {-lx, -ly, r}}};
 }
 
-/// Wheels at these angles, `arm` m from the middle, with axes that point inward.
+/// Returns wheels at these angles, `arm` (m) from the middle, with axes that point inward.
 std::vector<WheelPart> omni_wheels(const std::vector<double>& angles, double arm) {
   std::vector<WheelPart> wheels;
   for (const double a : angles) {
@@ -63,7 +63,7 @@ struct Draw {
   double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
 };
 
-/// Where a constant velocity in the base's axes leads.
+/// Returns the end of a path with a constant velocity in the base's axes.
 Vec3 arc_end(double x, double y, double turn, double t) {
   const double s = std::sin(turn * t) / turn, c = (1 - std::cos(turn * t)) / turn;
   return {s * x - c * y, c * x + s * y, 0};

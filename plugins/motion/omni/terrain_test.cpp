@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vehicles with rollers on heightmaps.
+// Tests of vehicles with rollers on heightmaps.
 #include <gtest/gtest.h>
 
 #include "muro/toolkit/rotations.hpp"
@@ -31,7 +31,7 @@ struct KiwiOnHills : test::Scene {
     use("motion.omni", 100, all_robots());
     build();
   }
-  /// In the axes of the base, m/s.
+  /// Drives with a velocity (m/s) in the axes of the base.
   void drive(double x, double y) {
     const double angles[] = {M_PI / 3, M_PI, -M_PI / 3};
     for (int i = 0; i < 3; ++i)

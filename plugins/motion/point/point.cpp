@@ -59,11 +59,11 @@ Vec3 limited(const Vec3& v, double max_length) {
   return length > max_length ? Vec3(v * (max_length / length)) : v;
 }
 
-/// `from` moved towards `to` by at most `max_change`.
+/// Returns `from` moved towards `to` by at most `max_change`.
 Vec3 approached(const Vec3& from, const Vec3& to, double max_change) { return from + limited(to - from, max_change); }
 
-/// The velocity that covers `distance` in one step, or from which the deceleration `max_acceleration` still stops in
-/// time.
+/// Returns the velocity that covers `distance` in one step, or the largest one from which the deceleration
+/// `max_acceleration` still stops in time.
 Vec3 approach_velocity(const Vec3& distance, double max_acceleration, double dt) {
   const double length = distance.norm();
   if (length <= max_acceleration * dt * dt) return distance / dt;
@@ -71,8 +71,8 @@ Vec3 approach_velocity(const Vec3& distance, double max_acceleration, double dt)
   return distance * (2 / (dt + std::sqrt(dt * dt + 2 * length / max_acceleration)));
 }
 
-/// For every link: whether it is a wheel, which turns without limits, carries no other joint and has a round shape
-/// about its axis.
+/// Finds the links that are wheels: they turn without limits, carry no other joint and have a round shape about the
+/// axis.
 std::vector<bool> wheels_of(const Connector& c, const RobotView& robot) {
   const wheels::WheelFinder finder(c, robot);
   std::vector<bool> carries(robot.links.size()), are_wheels(carries);
@@ -85,7 +85,7 @@ std::vector<bool> wheels_of(const Connector& c, const RobotView& robot) {
   return are_wheels;
 }
 
-/// What is kept of a robot.
+/// Data of a robot.
 struct PointRobot {
   Out<Pose> pose;
   Out<Twist> twist;
@@ -142,7 +142,7 @@ class Point final : public Motion<PerRobotAlgorithm<PointRobot>> {
     return r;
   }
 
-  /// The velocity (world axes) that would fulfil the command within this step.
+  /// Returns the velocity (world axes) that would fulfil the command within this step.
   Twist commanded_velocity(const PointRobot& r, double dt) const {
     const Pose& pose = *r.pose;
     if (!follow_pose_) return {pose.orientation * r.command_twist->linear, pose.orientation * r.command_twist->angular};
@@ -153,8 +153,8 @@ class Point final : public Motion<PerRobotAlgorithm<PointRobot>> {
 
   bool follows_terrain() const { return height_ >= 0; }
 
-  /// Puts the base at its height above the ground, or, where there is none, at `height` (m). `v` (world axes) goes
-  /// along the slope.
+  /// Sets the base to its height above the ground, or to `height` (m) when there is no ground. Makes `v` (world axes)
+  /// follow the slope.
   void follow_terrain(double height, Pose& pose, Twist& v) const {
     pose.position.z() = height;
     if (!pose.position.allFinite()) return;
@@ -192,7 +192,7 @@ class Point final : public Motion<PerRobotAlgorithm<PointRobot>> {
   }
 
   ground::Terrain terrain_;
-  double height_ = -1;  ///< m; below 0: terrain is nothing to it
+  double height_ = -1;  ///< m; below 0: it ignores terrain
   bool follow_pose_ = false;
   double max_speed_ = 0, max_turn_rate_ = 0, max_acceleration_ = 0, max_turn_acceleration_ = 0;
 };

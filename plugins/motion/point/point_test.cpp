@@ -37,7 +37,7 @@ class Draw {
   std::mt19937 engine_;
 };
 
-/// exp(t * xi) for the velocity xi of a body in its own axes, by the series of exp(t / 1024 * xi).
+/// Returns exp(t * xi) for the velocity xi of a body in its own axes, by the series of exp(t / 1024 * xi).
 Eigen::Matrix4d screw(const Twist& xi, double t) {
   Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
   const Vec3 &w = xi.angular, &v = xi.linear;
@@ -121,12 +121,12 @@ TEST(PointMotion, ReachesAGoalInOneStepWhenNothingLimitsIt) {
   }
 }
 
-/// One approach to a goal, watched step by step.
+/// Values of one approach to a goal, recorded in each step.
 struct Approach {
   double furthest_past = 0;  ///< m or rad beyond the goal
   double max_acceleration = 0;
   double max_speed = 0;
-  double left = 0;  ///< m or rad to go at the end
+  double left = 0;  ///< m or rad, remaining distance at the end
 };
 
 Approach watch(Point& s, double period, int steps, bool turning) {
@@ -217,7 +217,7 @@ TEST(PointMotion, WithoutAccelerationItStaysWhereItIs) {
   EXPECT_EQ(s.moving().linear, Vec3::Zero());
 }
 
-/// A robot with one joint; the test writes its target, as control code does.
+/// A robot with one joint; the test writes its target like control code.
 struct Jointed : test::Scene {
   const RobotView* robot;
   Out<double> target;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Points that keep a height above heightmaps.
+// Tests of points that keep a height above heightmaps.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a step lets act on each link of a robot, for who reads it (keys::applied_wrench).
+// The wrench that acts on each link of a robot in a step, for algorithms that read it (keys::applied_wrench).
 #pragma once
 
 #include <optional>
@@ -10,11 +10,11 @@
 
 namespace muro::simplified {
 
-/// Forces on links act on the robot as a whole: the base has the sum of all. What each link has of it follows from the
-/// contacts of the contact algorithm, or from the link's own `wrench.external` where the motion reads it.
+/// Forces on links act on the robot as a whole: the base has the sum of all. The part of each link follows from the
+/// contacts of the contact algorithm, or from the link's own `wrench.external` when the motion reads it.
 class AppliedWrenches {
  public:
-  /// `external`: the sum that the motion reads at the base; null: none, no wrench acts. [setup]
+  /// Finds the links. `external`: the sum that the motion reads at the base; null: no wrench acts. [setup]
   void connect_by_name(Connector& c, const RobotView& robot, const SumIn<Wrench>* external) {
     if (!external) return;
     bool is_read = false, has_sum_of_all = false;
@@ -34,10 +34,10 @@ class AppliedWrenches {
       contacts_ = c.read_list(robot.base(), keys::contact_wrenches_of_law);
   }
 
-  /// Whether nobody reads it.
+  /// Whether nothing reads these wrenches.
   bool empty() const { return links_.empty(); }
 
-  /// Before the robot moves: what is to act in this step. [step]
+  /// Stores the wrenches that act in this step. Call it before the robot moves. [step]
   void keep() {
     for (OfLink& link : links_) link.sum = link.has_own ? link.external->value() : Wrench{};
     if (contacts_ && !links_.empty())
@@ -50,7 +50,7 @@ class AppliedWrenches {
   struct OfLink {
     ObjectId object = no_object;
     In<Pose> pose;
-    bool has_own = false;  ///< `external` is what acts on this link, at the base also on those that have none
+    bool has_own = false;  ///< `external` acts on this link; at the base, also on links without their own
     std::optional<SumIn<Wrench>> external;
     Out<Wrench> applied;
     Wrench sum;  ///< at its origin, world axes
@@ -62,7 +62,7 @@ class AppliedWrenches {
     return nullptr;
   }
 
-  /// From the base to the link that touches, where the base has what acts on that.
+  /// Moves a contact wrench from the base to the touching link, when the base has the sum for that link.
   void move_from_base(const ContactWrench& contact) {
     OfLink* const link = link_of(contact.body);
     if (!link || link->has_own) return;
@@ -73,8 +73,8 @@ class AppliedWrenches {
     base.sum.torque -= contact.wrench.torque;
   }
 
-  std::vector<OfLink> links_;       ///< of the robot, where somebody reads what acts on one of them
-  ListIn<ContactWrench> contacts_;  ///< where the base has what acts on others
+  std::vector<OfLink> links_;       ///< links of the robot; empty when nothing reads the wrench of any link
+  ListIn<ContactWrench> contacts_;  ///< when the base has the sum for other links
 };
 
 }  // namespace muro::simplified

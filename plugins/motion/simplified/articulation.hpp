@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot whose joints move its masses.
+// A robot with joints that move its masses.
 #pragma once
 
 #include <cmath>
@@ -23,14 +23,14 @@ class Articulation {
         positions_(position_sources_.size(), std::numeric_limits<double>::quiet_NaN()),
         velocities_(positions_) {}
 
-  /// To be called before the joints move.
+  /// Stores the mass state. Call it before the joints move.
   void begin_step() {
     update();
     before_ = state_;
     inverse_before_ = inverse_;
   }
 
-  /// To be called when the joints have moved. Whether the new state is finite.
+  /// Moves the base. Call it when the joints have moved. Returns whether the new state is finite.
   bool move_base(const BatchParameters& batch, const RobotState& robot, const Wrench& external) {
     update();
     lane::Places<double, double> pose_at{{robot.pose}}, twist_at{{robot.twist}};
@@ -45,7 +45,7 @@ class Articulation {
     return std::isfinite(all.x + all.y + all.z);
   }
 
-  /// See simplified::correct_path; after move_base.
+  /// See simplified::correct_path. Call it after move_base.
   void correct_path(const RobotState& robot, double inverse_mass, const ImpactCorrection& impact) const {
     simplified::correct_path(robot.pose, robot.twist, mass_of(state_), columns_of(inverse_), inverse_mass, impact);
   }
@@ -55,7 +55,7 @@ class Articulation {
     return {plain(m.com), plain(m.com_velocity), columns_of(m.tensor)};
   }
 
-  /// Brings the mass state up to the present joint state, if it is of another one.
+  /// Updates the mass state if the joint state has changed.
   void update() {
     bool same = true;
     for (std::size_t k = 0; k < position_sources_.size(); ++k) {

@@ -16,7 +16,7 @@ bool balanced(const Inertia& body, const Vec3& axis) {
 
 namespace {
 
-/// For every link: whether its joint moves mass relative to the link's parent.
+/// Finds for every link whether its joint moves mass relative to the link's parent.
 std::vector<bool> find_moving_joints(Rows<Link> links, std::span<const Inertia> inertias,
                                      std::span<const double> start) {
   std::vector<Inertia> subtree(inertias.begin(), inertias.end());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Centre of mass and inertia of a robot as its joints move.
+// Centre of mass and inertia of a robot with moving joints.
 #pragma once
 
 #include <span>
@@ -12,30 +12,30 @@ namespace muro::simplified {
 /// The whole robot as one body, in the frame of its base.
 struct MassState {
   Vec3 com = Vec3::Zero();           ///< m
-  Vec3 com_velocity = Vec3::Zero();  ///< m/s, relative to the base: what the moving joints do to the centre
+  Vec3 com_velocity = Vec3::Zero();  ///< m/s, relative to the base: velocity of the centre by the joints
   Mat3 tensor = Mat3::Zero();        ///< kg m^2, about the centre
 };
 
-/// Whether turning about `axis` (unit, through the origin of its frame) leaves the centre of mass and the inertia of a
-/// body as they are. Models state both with few digits, hence the margins: 1 um, and 1e-6 of the inertia.
+/// Whether turning about `axis` (unit, through the origin of its frame) does not change the centre of mass and the
+/// inertia of a body. Models give both with few digits, so the margins are 1 um and 1e-6 of the inertia.
 bool balanced(const Inertia& body, const Vec3& axis);
 
-/// The links of a robot as one composite body: joined to as few rigid groups as its moving masses allow.
+/// The links of a robot as one composite body, joined to as few rigid groups as its moving masses allow.
 ///
-/// A joint that turns a subtree about an axis on which the subtree's centre of mass lies and about which its
-/// inertia is symmetric (a wheel) changes nothing and opens no group. A vehicle is one group.
+/// A joint opens no group when the subtree's centre of mass lies on its axis and the inertia is symmetric about it (a
+/// wheel): turning it changes nothing. A vehicle is one group.
 class CompositeBody {
  public:
-  /// `inertias`, `start`: one per link, the joint positions (rad or m) at the start. Positions of joints that open no
-  /// group do not matter later.
+  /// `inertias`: one per link; `start`: joint positions (rad or m) at the start, one per link. Positions of joints that
+  /// open no group are not needed later.
   CompositeBody(Rows<Link> links, std::span<const Inertia> inertias, std::span<const double> start);
 
   double mass() const { return mass_; }
-  /// Whether no joint moves centre or inertia.
+  /// Whether no joint changes centre or inertia.
   bool rigid() const { return groups_.size() == 1; }
-  /// Links whose joint moves mass, in the order in which `state` wants them.
+  /// Returns the links whose joint moves mass, in the order that `state` needs.
   std::span<const std::uint32_t> joints() const { return joints_; }
-  /// `positions`, `velocities`: of `joints()`. Does not allocate.
+  /// Computes the mass state. `positions`, `velocities`: of `joints()`. Does not allocate.
   MassState state(std::span<const double> positions, std::span<const double> velocities);
 
  private:
@@ -44,9 +44,9 @@ class CompositeBody {
     JointFrame joint;
     double mass = 0;            ///< kg
     lane::V3<double> com{};     ///< m, in the group's frame
-    lane::M3<double> tensor{};  ///< kg m^2, the same, about the centre
+    lane::M3<double> tensor{};  ///< kg m^2, in the group's frame, about the centre
     BodyFrame in_base;
-    lane::TwistOf<double> motion{};  ///< relative to the base, its axes, at the group's origin
+    lane::TwistOf<double> motion{};  ///< relative to the base, in its axes, at the group's origin
   };
   double mass_ = 0;
   std::vector<Group> groups_;

@@ -15,8 +15,8 @@ Link frame_of(int parent, JointKind joint, const Vec3& offset, const Vec3& axis)
   return f;
 }
 
-/// A base at the origin and two slender links (mass m, length l) in the xz plane, turning about y, as a double pendulum
-/// that hangs along -z at zero.
+/// A double pendulum: a base at the origin and two slender links (mass m, length l) in the xz plane that turn about y
+/// and hang along -z at zero.
 struct TwoLinks {
   double base_mass = 3, m = 2, l = 0.5;
   std::vector<Link> links{frame_of(-1, JointKind::fixed, {0, 0, 0}, Vec3::UnitX()),

@@ -39,7 +39,7 @@ DecoupledDynamics::DecoupledDynamics(Rows<Link> links, std::span<const Inertia> 
   }
 }
 
-/// Links into bodies.
+/// Joins links to bodies.
 std::vector<MovedInertias::Body> DecoupledDynamics::join(Rows<Link> links, std::span<const Inertia> inertias) {
   std::vector<MovedInertias::Body> tree(1);
   bodies_.emplace_back();
@@ -70,7 +70,8 @@ void DecoupledDynamics::add_wrench(std::uint32_t link, SumIn<Wrench> wrench) {
   wrenches_.push_back({body_of_link_[link], plain(pose_in_body_[link].position), wrench});
 }
 
-/// A wheel keeps its inertia whatever its position, so it carries no other body, and nothing off its axis.
+/// Finds the base and wheels. A wheel has the same inertia in every position, so it carries no other body, and no link
+/// off its axis.
 void DecoupledDynamics::find_constant_inertias(std::span<const MovedInertias::Body> tree) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& b = bodies_[i];
@@ -88,7 +89,7 @@ void DecoupledDynamics::find_constant_inertias(std::span<const MovedInertias::Bo
   for (const Body& b : bodies_) all_constant_ = all_constant_ && b.has_constant_inertia;
 }
 
-/// Of all bodies, and of all as one.
+/// Finds the places of all bodies, and the centre and inertia of all together.
 void DecoupledDynamics::find_places(std::span<const double> positions) {
   for (std::size_t i = 1; i < bodies_.size(); ++i)
     positions_[i] = bodies_[i].has_constant_inertia ? 0 : positions[bodies_[i].link];
@@ -101,7 +102,8 @@ void DecoupledDynamics::find_places(std::span<const double> positions) {
   inverse_ = columns_of(matrix_of(tensor_).inverse());
 }
 
-/// `force`, `torque` on the whole robot at the base's origin, `spin` of the base; axes of the base.
+/// Adds gravity and inertial forces to all bodies. `force`, `torque`: on the whole robot at the base's origin; `spin`:
+/// of the base; in axes of the base.
 void DecoupledDynamics::add_inertial_forces(const Vector& force, const Vector& torque, const Vector& spin,
                                             const Vector& gravity) {
   Vector origin{0, 0, 0}, turn{0, 0, 0}, rate{0, 0, 0};  // accelerations; angular velocity
@@ -119,7 +121,7 @@ void DecoupledDynamics::add_inertial_forces(const Vector& force, const Vector& t
   }
 }
 
-/// Of each body with all that hangs on it.
+/// Adds to each body the forces of all bodies behind it.
 void DecoupledDynamics::sum_forces() {
   for (std::size_t i = bodies_.size(); i-- > 1;) {
     Body& on = bodies_[std::size_t(bodies_[i].parent)];
@@ -128,7 +130,7 @@ void DecoupledDynamics::sum_forces() {
   }
 }
 
-/// Where only its own joint moves.
+/// Projects forces onto a degree of freedom in which only its own joint moves.
 void DecoupledDynamics::project_onto(Dof& dof) const {
   const std::uint32_t body = body_of_link_[dof.link];
   const Body& b = bodies_[body];
@@ -142,7 +144,7 @@ void DecoupledDynamics::project_onto(Dof& dof) const {
   dof.inertia -= dot(momentum, momentum) / mass_;
 }
 
-/// Where others follow. Before forces are summed.
+/// Projects forces onto a degree of freedom with mimic joints. Call it before forces are summed.
 void DecoupledDynamics::project_onto(Dof& dof, std::span<const MovedBody> moved) {
   Vector momentum{0, 0, 0};
   dof.inertia = dof.force = 0;

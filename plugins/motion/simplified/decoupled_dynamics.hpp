@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What acts on the joints of a robot: their inertias, and the forces along them.
+// The dynamics of a robot's joints: their inertias, and the forces along them.
 #pragma once
 
 #include <span>
@@ -13,55 +13,56 @@ namespace muro::simplified {
 
 /// The dynamics of each joint of a robot, as if all other joints were locked.
 ///
-/// A joint and the mimic joints that follow it are one degree of freedom. It has the kinetic energy M q'^2 / 2 of all
-/// bodies that it moves (composite rigid bodies: Featherstone, Rigid Body Dynamics Algorithms, Section 6.2, the
-/// diagonal of the joint-space inertia matrix), and the generalized force Q: the power of all that acts on these
-/// bodies, for q' = 1. That is wrenches, gravity, and the inertia of the bodies in the base's frame, which the sum of
-/// wrenches accelerates. A free base gives way to a joint as far as its centre of mass does not move: M loses P^2 / m,
-/// with P the momentum for q' = 1 (the angular part is left out: a swinging arm does not turn the trunk). Velocity
-/// terms between joints and off-diagonal inertias are left out.
+/// A joint and the mimic joints that follow it are one degree of freedom. The bodies that it moves have the kinetic
+/// energy M q'^2 / 2 (composite rigid bodies: Featherstone, Rigid Body Dynamics Algorithms, Section 6.2, the diagonal
+/// of the joint-space inertia matrix). The generalized force Q is the power of all forces on these bodies for q' = 1:
+/// wrenches, gravity, and inertial forces in the frame of the base, which is accelerated by the sum of wrenches. A free
+/// base yields to a joint so that the robot's centre of mass does not move: M loses P^2 / m, where P is the momentum
+/// for q' = 1. The angular part is omitted: a swinging arm does not turn the trunk. Velocity terms between joints and
+/// off-diagonal inertias are omitted.
 class DecoupledDynamics {
  public:
-  /// Of one degree of freedom.
+  /// State of one degree of freedom.
   struct Dof {
-    std::uint32_t link = 0;  ///< of its joint
+    std::uint32_t link = 0;  ///< link of its joint
     double inertia = 0;      ///< kg m^2 or kg
-    double force = 0;        ///< N m or N: all but the drive and what the joint itself holds back
+    double force = 0;        ///< N m or N: all forces except the drive, friction and damping of the joint
   };
-  /// `inertias`: one per link. `dofs`: links whose joints they are, none of them a mimic. `armature`: kg m^2 or kg,
-  /// that driven() counts beside that of their limits.
+  /// `inertias`: one per link. `dofs`: links of the joints that are degrees of freedom, no mimic joints. `armature`: kg
+  /// m^2 or kg, added by driven() to the armature in the joints' limits.
   DecoupledDynamics(Rows<Link> links, std::span<const Inertia> inertias, std::span<const std::uint32_t> dofs,
                     bool fixed_base, double armature = 0);
 
   void add_wrench(std::uint32_t link, SumIn<Wrench> wrench);
 
-  /// `pose`, `twist`: of the base; `positions` (rad or m): one per link, 0 for fixed joints; `gravity` in world axes.
-  /// Fills `dofs` and returns the sum of all wrenches, as one on the base. Does not allocate.
+  /// Fills `dofs` and returns the sum of all wrenches as one wrench on the base. `pose`, `twist`: of the base;
+  /// `positions` (rad or m): one per link, 0 for fixed joints; `gravity` in world axes. Does not allocate.
   Wrench update(const Pose& pose, const Twist& twist, std::span<const double> positions, const Vec3& gravity);
   std::span<const Dof> dofs() const { return dofs_; }
 
-  /// kg m^2 or kg: that a drive of degree of freedom `k` moves, where update() has found the bodies. See MovedInertias.
+  /// kg m^2 or kg: inertia that a drive of degree of freedom `k` moves, with the bodies as update() has placed them.
+  /// See MovedInertias.
   double driven(std::size_t k) const { return tree_.driven(body_of_link_[dofs_[k].link]); }
 
  private:
   using Vector = lane::V3<double>;
   using Matrix = lane::M3<double>;
 
-  /// Links that fixed joints hold together, behind the joint that moves them. Vectors in axes of the base.
+  /// Links that fixed joints hold together, with the joint that moves them. Vectors are in axes of the base.
   struct Body {
     std::int32_t parent = -1;
-    std::uint32_t link = 0;  ///< the first
+    std::uint32_t link = 0;  ///< the first link
     JointKind joint = JointKind::fixed;
-    bool has_constant_inertia = false;  ///< no joint moves its masses: it is the base, or a wheel on it
+    bool has_constant_inertia = false;  ///< no joint moves its masses: the base, or a wheel on it
     double mass = 0;                    ///< kg
-    Vector force{}, torque{};           ///< all that acts on it and, when they are summed, behind it; about the origin
-    Vector linear{}, angular{};         ///< at its origin, for q' = 1 of the joint at hand
+    Vector force{}, torque{};           ///< all forces on it and, when summed, on bodies behind it; about the origin
+    Vector linear{}, angular{};         ///< at its origin, for q' = 1 of the present joint
   };
   /// A body that a degree of freedom moves.
   struct MovedBody {
     std::uint32_t body = 0;
-    std::int32_t carrier = -1;  ///< body that it hangs on, if that one moves, too
-    double rate = 0;            ///< of its own joint for q' = 1
+    std::int32_t carrier = -1;  ///< parent body, if that one moves, too
+    double rate = 0;            ///< rate of its own joint for q' = 1
   };
   struct AppliedWrench {
     std::uint32_t body = 0;
@@ -79,16 +80,16 @@ class DecoupledDynamics {
 
   bool fixed_base_;
   double mass_ = 0;
-  bool all_constant_ = true;     ///< all bodies are
-  Vector centre_{};              ///< m, of mass of all bodies
-  Matrix tensor_{}, inverse_{};  ///< kg m^2, of all bodies, about centre_; the other for a free base
+  bool all_constant_ = true;     ///< all bodies have constant inertia
+  Vector centre_{};              ///< m, centre of mass of all bodies
+  Matrix tensor_{}, inverse_{};  ///< kg m^2, of all bodies, about centre_; the inverse for a free base
   MovedInertias tree_;
   std::vector<double> positions_;  ///< rad or m: of the joint of each body
   std::vector<Body> bodies_;
   std::vector<std::uint32_t> body_of_link_;
-  std::vector<Pose> pose_in_body_;  ///< of each link
+  std::vector<Pose> pose_in_body_;  ///< one per link
   std::vector<Dof> dofs_;
-  std::vector<std::vector<MovedBody>> moved_;  ///< by degree of freedom; empty: its joint alone moves
+  std::vector<std::vector<MovedBody>> moved_;  ///< by degree of freedom; empty: only its joint moves
   std::vector<AppliedWrench> wrenches_;
 };
 

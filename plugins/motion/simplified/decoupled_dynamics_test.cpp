@@ -54,7 +54,7 @@ struct Arm {
     return m;
   }
   Vec3 com() const { return composite_inertia(links, inertias, q).com; }
-  /// What `value` changes by when `joint` turns by 1, by central differences.
+  /// Returns the derivative of `value` by the position of `joint`, by central differences.
   template <class Value>
   auto slope(std::size_t joint, Value value) {
     const double e = 1e-5;
@@ -144,7 +144,7 @@ TEST(DecoupledDynamics, AFreeBaseGivesWayToTheMomentumOfAJoint) {
 }
 
 TEST(DecoupledDynamics, AWheelIsTheSameHoweverItHasTurned) {
-  // The one is not taken for a wheel, since it carries something, without mass.
+  // `other` is not treated as a wheel, because its link carries a link without mass.
   std::vector<Link> links{Link{}, frame(0, JointKind::revolute, {0.1, 0.2, 0}, Vec3::UnitY())};
   std::vector<Inertia> inertias{{.mass = 4, .com = {0, 0, 0.1}, .ixx = 0.1, .iyy = 0.2, .izz = 0.3},
                                 {.mass = 0.3, .com = {0, 0.01, 0}, .ixx = 3e-4, .iyy = 5e-4, .izz = 3e-4}};

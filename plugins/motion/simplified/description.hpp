@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What muro knows of motion.simplified before it runs: its parameters, what it reads and writes, what it can.
+// The description of motion.simplified: its parameters, the properties that it reads and writes, and its features.
 #pragma once
 
 #include "muro/plugin.hpp"

@@ -13,42 +13,44 @@ namespace muro::simplified {
 
 using DofState = joints::JointState<double>;
 
-/// What is left of `force` (N m or N) beyond what friction of at most `friction` >= 0 holds.
+/// Returns the part of `force` (N m or N) above `friction` >= 0, the largest force that friction holds.
 inline double beyond_friction(double force, double friction) {
   return force > 0 ? std::max(force - friction, 0.0) : std::min(force + friction, 0.0);
 }
 
-/// Moves on by `dt` (s) with the velocity `v` at its end; stops are inelastic.
+/// Advances the state by `dt` (s) with the velocity `v` at its end; stops are inelastic.
 inline DofState moved_on(const DofState& s, double v, const JointLimits& limits, double dt) {
   const double q = s.position + (s.velocity + v) * (0.5 * dt);
   const double position = std::clamp(q, limits.lower, limits.upper);
   return {position, position == q ? v : 0};
 }
 
-/// The velocity after `dt` (s) under the constant `force` (N m or N): inertia v' = force - damping v - friction, with
-/// damping and friction those of the end of the step: friction takes what it can and no more, so a joint comes to rest
-/// and stays there. `inertia` > 0: kg m^2 or kg.
+/// Returns the velocity after `dt` (s) under the constant `force` (N m or N): inertia v' = force - damping v -
+/// friction. Damping and friction belong to the end of the step. Friction never exceeds the force that stops the joint,
+/// so a joint comes to rest and stays there. `inertia` > 0: kg m^2 or kg.
 inline double velocity_under(const DofState& s, double force, double inertia, const JointLimits& limits, double dt) {
   const double momentum = beyond_friction(inertia * s.velocity + force * dt, limits.friction * dt);
   return momentum / (inertia + limits.damping * dt);
 }
 
-/// Moves on by `dt` (s) under the constant `force`, as velocity_under() says, whatever the limit of speed is.
-/// q' = q + (v + v') dt/2, exact for a constant force. Stops are inelastic.
+/// Advances the state by `dt` (s) under the constant `force` with velocity_under(), without a speed limit. Stops are
+/// inelastic. Position: q' = q + (v + v') dt/2, exact for a constant force.
 inline DofState integrate_force(const DofState& s, double force, double inertia, const JointLimits& limits, double dt) {
   return moved_on(s, velocity_under(s, force, inertia, limits, dt), limits, dt);
 }
 
-/// The drive's effort that brings a joint under `load` (what else acts, N m or N) from velocity `from` to `to` within
-/// `dt`: the inverse of integrate_force(); at rest, no more than friction does not hold.
+/// Returns the drive's effort that brings a joint from velocity `from` to `to` within `dt`, under `load` (all other
+/// forces, N m or N). It is the inverse of integrate_force(). For `to` = 0 it is only the part that friction does not
+/// hold.
 inline double inverse_dynamics(double from, double to, double load, double inertia, const JointLimits& limits,
                                double dt) {
   const double needed = ((inertia + limits.damping * dt) * to - inertia * from) / dt - load;
   return to == 0 ? beyond_friction(needed, limits.friction) : needed + std::copysign(limits.friction, to);
 }
 
-/// Moves on by `dt` (s) under the effort of a drive and `load` (what else acts, N m or N). The drive pushes the joint
-/// no faster than its limit of speed; a load may, and then the drive does nothing. `effort`: in and out, N m or N.
+/// Advances the state by `dt` (s) under the effort of a drive and `load` (all other forces, N m or N). The drive pushes
+/// the joint no faster than its speed limit; a load may, and then the drive does nothing. `effort`: in and out, N m or
+/// N.
 inline DofState integrate_effort(const DofState& s, double& effort, double load, double inertia,
                                  const JointLimits& limits, double dt) {
   double v = velocity_under(s, effort + load, inertia, limits, dt);
@@ -61,8 +63,8 @@ inline DofState integrate_effort(const DofState& s, double& effort, double load,
   return moved_on(s, v, limits, dt);
 }
 
-/// The same of a joint with a target of its own, which a load moves no faster than its limit of speed either: limbs do
-/// not push the base back at this level, so that what contacts make of a light limb would have no bound.
+/// Advances a joint with its own target like integrate_effort(), but a load cannot exceed the speed limit either. Limbs
+/// do not push the base back in this model, so contacts could give a light limb an unlimited speed.
 inline DofState integrate_weak_drive(const DofState& s, double& effort, double load, double inertia,
                                      const JointLimits& limits, double dt) {
   const DofState free = integrate_effort(s, effort, load, inertia, limits, dt);
@@ -70,8 +72,8 @@ inline DofState integrate_weak_drive(const DofState& s, double& effort, double l
   return moved_on(s, std::copysign(limits.velocity, free.velocity), limits, dt);
 }
 
-/// Moves on by `dt` (s) with a PD drive, no stronger than the limit of effort, under `load` (what else acts, N m or N).
-/// `effort`: what the drive does, N m or N, that of the end of the step.
+/// Advances the state by `dt` (s) with a PD drive, no stronger than the effort limit, under `load` (all other forces, N
+/// m or N). `effort`: out, effort of the drive at the end of the step, N m or N.
 inline DofState follow_drive(const DofState& s, const ImplicitDrive& drive, double load, double inertia,
                              const JointLimits& limits, double dt, double& effort) {
   const double momentum =
@@ -88,12 +90,12 @@ inline DofState follow_drive(const DofState& s, const ImplicitDrive& drive, doub
 /// A drive that follows its target as long as its effort suffices.
 struct Drive {
   Mode mode = Mode::velocity;
-  double target = 0;            ///< of the mode
+  double target = 0;            ///< target of the mode
   double max_acceleration = 0;  ///< rad/s^2 or m/s^2
 };
 
-/// Follows the drive's target, no stronger than the limit of effort: a load that is too heavy moves the joint.
-/// `effort`: what the drive does, N m or N.
+/// Follows the drive's target, no stronger than the effort limit: a load that is too heavy moves the joint. `effort`:
+/// out, effort of the drive, N m or N.
 inline DofState follow_target(const DofState& s, const Drive& drive, double load, double inertia,
                               const JointLimits& limits, double dt, double& effort) {
   const JointRange range{limits.lower, limits.upper, limits.velocity,

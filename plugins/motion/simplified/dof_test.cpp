@@ -76,7 +76,7 @@ TEST(Dof, ALoadIsFasterThanTheLimitOfTheDrive) {
 }
 
 TEST(Dof, AnUndampedSpringKeepsItsEnergyInTheMiddleOfSteps) {
-  // Drift, kick, drift: the force belongs to the middle of the step, as DecoupledDynamics finds it.
+  // Drift, kick, drift: the force belongs to the middle of the step, like that of DecoupledDynamics.
   DofState s{1, 0};
   for (int n = 0; n < 1000000; ++n)
     s = integrate_force(s, -25 * (s.position + 0.5 * dof_step * s.velocity), 1, {}, dof_step);
@@ -112,7 +112,7 @@ TEST(Dof, ADriveAcceleratesByItsEffortAndGivesWayToAHeavyLoad) {
   EXPECT_EQ(effort, -4);
 }
 
-/// The drive of a joint at `s` that is to be at `target`.
+/// Returns the drive of a joint at `s` with the target `target`.
 ImplicitDrive drive_to(double target, const DofState& s, const PdGains& gains) {
   return implicit_drive(gains, target - s.position, 0, dof_step);
 }

@@ -76,7 +76,7 @@ TEST(DrivenVehicle, AcceleratesByTheEffortOfItsWheels) {
 TEST(DrivenVehicle, NoMoreEffortReachesTheGroundThanFrictionCarries) {
   Drive s(Parameters{{"joints", "effort"}}, 0.3);
   s.run_for(0.5);
-  s.set(keys::joint_effort_target, 0.6);  // 40 N for the 15.3 N of friction
+  s.set(keys::joint_effort_target, 0.6);  // 40 N against 15.3 N of friction
   s.run_for(0.2);
   const double before = s.forward();
   s.run_for(0.5);
@@ -130,7 +130,7 @@ TEST(DrivenVehicle, StandsStillAtAnyRate) {
     s.run_for(1);
     const Vec3 before = s.pose(*s.robot).position;
     s.run_for(4);
-    // its wheels turn freely, so it keeps what speed it gets while contacts learn what they bear
+    // its wheels turn freely, so it keeps the speed that it gets while contacts adapt to their load
     EXPECT_LT((s.pose(*s.robot).position - before).norm(), rate < 1000 ? 1e-5 : 1e-6) << rate;
     EXPECT_LT(std::abs(s.wheel(keys::joint_velocity)), 1e-4) << rate;
   }

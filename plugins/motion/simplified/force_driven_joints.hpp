@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The joints of one robot that forces drive: those in mode effort and passive, with PD drives, and others whose effort
-// is limited
-// (force-driven joints of hybrid dynamics: Featherstone, Rigid Body Dynamics Algorithms, Section 9.2).
+// The joints of one robot that forces drive: joints in mode effort and passive, with PD drives, and others with limited
+// effort (force-driven joints of hybrid dynamics: Featherstone, Rigid Body Dynamics Algorithms, Section 9.2).
 #pragma once
 
 #include "decoupled_dynamics.hpp"
@@ -12,7 +11,7 @@
 
 namespace muro::simplified {
 
-/// kg m^2 or kg: what joints move that forces drive, at least.
+/// kg m^2 or kg: least inertia that a joint must move to be driven by forces.
 inline constexpr double least_dof_inertia = 1e-12;
 
 class ForceDrivenJoints {
@@ -20,24 +19,25 @@ class ForceDrivenJoints {
   struct Settings {
     bool fixed_base = false;
     double max_acceleration = 0;  ///< rad/s^2 or m/s^2: of joints that follow targets
-    double armature = 0;          ///< kg m^2 or kg: adds to the inertia of every joint here
-    bool feels_wrench = true;     ///< that on the base
-    bool feels_contact = true;    ///< wrenches on the other links, too
+    double armature = 0;          ///< kg m^2 or kg: added to the inertia of every joint here
+    bool feels_wrench = true;     ///< the wrench on the base
+    bool feels_contact = true;    ///< also wrenches on the other links
   };
-  /// `properties`, `inertias`, `start`, `drives`: one per link. `memory`: a name for what drives keep from step to
-  /// step. Throws Error for a joint without inertia. [setup]
+  /// `properties`, `inertias`, `start`, `drives`: one per link. `memory`: name of the memory that drives keep from step
+  /// to step. Throws Error for a joint without inertia. [setup]
   ForceDrivenJoints(Connector& c, const RobotView& robot, std::span<const JointProperties> properties,
                     std::span<const Inertia> inertias, std::span<const double> start,
                     std::span<const PositionDrive> drives, std::string_view memory, const Settings& settings);
-  /// Finds out whether velocities of joints with PD drives are commanded, and what drives bring with them. [setup]
+  /// Finds out whether velocities of joints with PD drives are commanded, and connects friction and armature of drives.
+  /// [setup]
   void connect_by_name(Connector& c);
-  /// Another motion has moved the robot so far.
+  /// Takes the robot over from another motion that has moved it so far.
   void take_over() const;
 
-  /// Finds inertias and forces of the joints, before anything moves; returns all that acts on the robot as one wrench
-  /// on the base. `dt`: s.
+  /// Computes inertias and forces of the joints, before anything moves. Returns the sum of all wrenches on the robot as
+  /// one wrench on the base. `dt`: s.
   Wrench evaluate(const Pose& pose, const Twist& twist, const Vec3& gravity, double dt);
-  /// Moves the joints by what evaluate() has found. Whether their state is finite.
+  /// Moves the joints with the results of evaluate(). Returns whether their state is finite.
   bool move(double dt);
 
  private:
@@ -48,13 +48,13 @@ class ForceDrivenJoints {
   };
   struct Joint {
     JointProperties properties;
-    JointLimits limits;  ///< damping and friction: with those of followers
-    double min_inertia;  ///< kg m^2 or kg: what remains of the inertia, however the robot folds
+    JointLimits limits;  ///< damping and friction include those of followers
+    double min_inertia;  ///< kg m^2 or kg: lower bound of the inertia in all poses of the robot
     Out<double> effort;
     ObjectId object;
-    DriveLosses losses;  ///< of what drives it by efforts
+    DriveLosses losses;  ///< losses of its drive in mode effort
     PositionDrive drive;
-    PositionTarget target;  ///< of a PD drive
+    PositionTarget target;  ///< target of a PD drive
     std::vector<Follower> followers;
   };
   /// Any joint of the robot.
@@ -67,7 +67,7 @@ class ForceDrivenJoints {
   Settings settings_;
   DecoupledDynamics dynamics_;
   bool has_position_drives_ = false;
-  std::vector<Joint> joints_;           ///< as dynamics_.dofs()
+  std::vector<Joint> joints_;           ///< in the order of dynamics_.dofs()
   std::vector<LinkJoint> link_joints_;  ///< all joints of the robot
   std::vector<double> positions_;       ///< in the middle of the step, one per link
 };

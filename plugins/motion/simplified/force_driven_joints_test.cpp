@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joints that forces move, through motion.simplified.
+// Tests of joints that forces move, through motion.simplified.
 #include <gtest/gtest.h>
 
 #include "core/instance.hpp"
@@ -38,7 +38,7 @@ RobotTree pendulum(const JointLimits& limits = {}) {
 }
 constexpr double rod_inertia = 0.16 / 12 + 0.04;
 
-/// 2 kg on a slide along x, on a base of 3 kg.
+/// A mass of 2 kg on a slide along x, on a base of 3 kg.
 RobotTree slider(const JointLimits& limits = {}) {
   return test::tree_of([&](RobotBuilder& b) {
     b.base("frame");
@@ -49,7 +49,7 @@ RobotTree slider(const JointLimits& limits = {}) {
   });
 }
 
-/// Seconds between crossings of 0, from twenty half swings.
+/// Returns the period in s, from twenty half swings between crossings of 0.
 double period(Machine& s) {
   double first = 0, last = 0, before = s.of("pivot", keys::joint_position);
   int crossings = 0;
@@ -97,7 +97,7 @@ TEST(ForceDrivenJoints, AFixedBaseStaysWhereItStarts) {
 }
 
 TEST(ForceDrivenJoints, AnEffortBetweenTwoFreeMassesMovesBoth) {
-  // 4 N between 3 and 2 kg: the reduced mass 1.2 kg; the centre of mass falls and does nothing else.
+  // 4 N between 3 and 2 kg: the reduced mass is 1.2 kg; the centre of mass only falls.
   Machine s(slider(), {{"joints", "effort"}});
   s.of("slide", keys::joint_effort_target) = 4;
   s.run_for(1);
@@ -152,7 +152,7 @@ TEST(ForceDrivenJoints, TheArmatureIsFeltAsInertia) {
   EXPECT_NEAR(s.of("slide", keys::joint_velocity), 2, 1e-9);
 }
 
-/// A gripper: two fingers on slides, one of which mimics the other.
+/// A gripper: two fingers on slides; one mimics the other.
 RobotTree gripper() {
   return test::tree_of([](RobotBuilder& b) {
     b.base("palm");
@@ -293,7 +293,7 @@ TEST(ForceDrivenJoints, RobotsOfABatchMoveAsTheyDoAlone) {
 
 TEST(ForceDrivenJoints, AnyStateThatAnotherMotionLeavesIsTakenOver) {
   Machine s(slider({.lower = -1, .upper = 0.5}), {{"joints", "effort"}, {"base", "fixed"}});
-  s.of("slide", keys::joint_position) = 0.6;  // that one did not know the limit
+  s.of("slide", keys::joint_position) = 0.6;  // the other motion did not know the limit
   s.of("slide", keys::joint_velocity) = -0.1;
   s.twist(s.robot).linear = {1, 2, 3};
   abi::ErrorText error;

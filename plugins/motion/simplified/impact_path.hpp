@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The path of a robot whose joints move no mass after an impact within the last step.
+// Corrects the path of a robot, whose joints move no mass, after an impact within the last step.
 #pragma once
 
 #include "move.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How a joint follows its target within limits of speed and acceleration, over a double or a lane of robots. Each
-// function advances one joint by `dt` (s) with constant acceleration; positions in rad or m.
+// Motion of a joint that follows its target within limits of speed and acceleration, over a double or a lane of robots.
+// Each function advances one joint by `dt` (s) with constant acceleration; positions in rad or m.
 #pragma once
 
 #include <type_traits>
@@ -19,15 +19,16 @@ struct JointState {
   S velocity;
 };
 
-/// What is not a number stays so. low <= high.
+/// Clamps `x`; NaN stays NaN. low <= high.
 template <class S>
 MURO_INLINE S clamp(S x, S low, S high) {
   return max(low, min(high, x));
 }
 constexpr bool is_finite(double limit) { return -JointRange::infinite < limit && limit < JointRange::infinite; }
 
-/// The velocity u at the end of a step that begins with `v`, both towards a goal at `distance`, from which the
-/// joint can still stop there: (v + u) dt/2 + u^2 / (2 a) = distance. Negative when it must turn back.
+/// Returns the largest velocity u at the end of a step from which the joint can still stop at `distance`. The step
+/// begins with `v`; both are towards the goal. It solves (v + u) dt/2 + u^2 / (2 a) = distance. Negative when the joint
+/// must turn back.
 template <class S>
 MURO_INLINE S braking_velocity(S distance, S v, double a, double dt) {
   const S remaining = distance - S(0.5) * v * S(dt);
@@ -35,8 +36,8 @@ MURO_INLINE S braking_velocity(S distance, S v, double a, double dt) {
   return S(2) * remaining / (S(0.5 * dt) + root);
 }
 
-/// Whether a joint can come to rest at `distance` >= 0 within `dt`: speeding up to sqrt(a d + v^2/2), then braking.
-/// The margin absorbs round-off in `distance`.
+/// Whether a joint can come to rest at `distance` >= 0 within `dt`, by speeding up to sqrt(a d + v^2/2) and then
+/// braking. The margin absorbs round-off in `distance`.
 template <class S>
 MURO_INLINE MaskOf<S> can_stop_at(S distance, S v, S speed, double a, double dt) {
   const S margin(1e-6 * (a * dt) * (a * dt));
@@ -44,7 +45,7 @@ MURO_INLINE MaskOf<S> can_stop_at(S distance, S v, S speed, double a, double dt)
          (S(2) * sqrt(S(a) * distance + S(0.5) * v * v) - v <= S(a * dt * (1 + 1e-6)));
 }
 
-/// Moves on with the velocity `u` at the end of the step; stops dead at a limit.
+/// Advances the joint with the velocity `u` at the end of the step; it stops at once at a limit.
 template <class S>
 MURO_INLINE JointState<S> integrate(const JointState<S>& joint, S u, const JointRange& range, double dt) {
   const S q = joint.position + (joint.velocity + u) * S(0.5 * dt);
@@ -53,28 +54,28 @@ MURO_INLINE JointState<S> integrate(const JointState<S>& joint, S u, const Joint
   return {position, select(position == q, u, S(0))};
 }
 
-/// Goes to `goal` no faster than `speed`, and stops there without overshoot.
+/// Moves the joint to `goal` no faster than `speed`, and stops there without overshoot.
 template <class S>
 MURO_INLINE JointState<S> move_towards(const JointState<S>& joint, S goal, S speed, const JointRange& range,
                                        double dt) {
   const S offset = goal - joint.position, sign = select(offset < S(0), S(-1), S(1));
   const S distance = sign * offset, v = sign * joint.velocity, change(range.acceleration * dt);
   const S u = min(speed, braking_velocity(distance, v, range.acceleration, dt));
-  // Braking may exceed the limit by a hair, so that round-off of many steps does not make the joint too fast to stop.
+  // Braking may exceed the limit slightly, so that round-off of many steps does not make the joint too fast to stop.
   const S allowed = sign * clamp(u, v - change * S(1 + 1e-6), v + change);
   const JointState<S> on = integrate(joint, allowed, range, dt);
   const auto stops = can_stop_at(distance, v, speed, range.acceleration, dt);
   return {select(stops, goal, on.position), select(stops, S(0), on.velocity)};
 }
 
-/// Position mode.
+/// Moves the joint in position mode.
 template <class S>
 MURO_INLINE void follow_position(JointState<S>& joint, std::type_identity_t<S> target, const JointRange& range,
                                  double dt) {
   joint = move_towards(joint, clamp(target, S(range.lower), S(range.upper)), S(range.speed), range, dt);
 }
 
-/// Velocity mode: takes the velocity on as fast as allowed, and stops at the limits of position.
+/// Moves the joint in velocity mode: changes the velocity as fast as allowed, and stops at the position limits.
 template <class S>
 MURO_INLINE void follow_velocity(JointState<S>& joint, std::type_identity_t<S> target, const JointRange& range,
                                  double dt) {
@@ -90,7 +91,7 @@ MURO_INLINE void follow_velocity(JointState<S>& joint, std::type_identity_t<S> t
   joint = next;
 }
 
-/// Acceleration mode.
+/// Moves the joint in acceleration mode.
 template <class S>
 MURO_INLINE void follow_acceleration(JointState<S>& joint, std::type_identity_t<S> target, const JointRange& range,
                                      double dt) {

@@ -13,7 +13,7 @@ constexpr double joint_step = 0.001;
 using JointState = joints::JointState<double>;
 
 TEST(JointMotion, ReachesAPositionInTheTimeOfATrapezoid) {
-  // Bang-bang with a ceiling on speed: t = d / v + v / a (textbook trapezoidal profile).
+  // Bang-bang with a speed limit: t = d / v + v / a (textbook trapezoidal profile).
   const JointRange range{.speed = 2, .acceleration = 10};
   JointState joint{};
   double t = 0;

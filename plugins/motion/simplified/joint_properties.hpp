@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The properties of joints, what drives each, and what kernels are told of those that no force drives.
+// The properties of joints, their drives, and the data for kernels of the joints that no force drives.
 #pragma once
 
 #include <cmath>
@@ -14,27 +14,28 @@
 
 namespace muro::simplified {
 
-/// The properties of a link's joint; null where there is none.
+/// The properties of a link's joint; null when there is no joint.
 struct JointProperties {
   double* position = nullptr;
   double* velocity = nullptr;
-  const double* target = nullptr;  ///< of the mode; null: passive, or a mimic
+  const double* target = nullptr;  ///< target of the mode; null: passive, or a mimic joint
   DriveMode mode = DriveMode::velocity;
   bool force_driven = false;   ///< moved by ForceDrivenJoints; kernels move the others
-  bool feels_contact = false;  ///< such a joint, moved by the wrenches on links, too
+  bool feels_contact = false;  ///< a force-driven joint that wrenches on links move, too
   bool has_position_drive = false;
 };
 
-/// Of the joints that kernels move.
+/// Returns the mode of a joint that kernels move.
 constexpr Mode kernel_mode(DriveMode mode) {
   return mode == DriveMode::position       ? Mode::position
          : mode == DriveMode::acceleration ? Mode::acceleration
                                            : Mode::velocity;
 }
 
-/// One per link. `start`: positions (rad or m). `modes`: of every joint. `limited`: forces drive all joints whose
-/// effort the model limits, also those with other targets. `has_position_drive`: of each link, whether its joint has a
-/// PD drive in mode position. Throws Error for a joint that starts outside its limits. [setup]
+/// Connects the properties of all joints, one per link. `start`: positions (rad or m). `modes`: mode of every joint.
+/// `limited`: whether forces drive all joints whose effort the model limits, whatever their targets.
+/// `has_position_drive`: for each link, whether its joint has a PD drive in mode position. Throws Error for a joint
+/// that starts outside its limits. [setup]
 inline std::vector<JointProperties> connect_joint_properties(Connector& c, const RobotView& robot,
                                                              const std::vector<double>& start,
                                                              const std::vector<DriveMode>& modes, bool limited,
@@ -58,7 +59,7 @@ inline std::vector<JointProperties> connect_joint_properties(Connector& c, const
   return properties;
 }
 
-/// The joints of one mode as kernels see them; sets the addresses of the first one in `state`.
+/// Returns the joints of one mode in the form for kernels; sets the addresses of the first one in `state`.
 inline std::vector<Joint> kernel_joints(const RobotView& robot, const std::vector<JointProperties>& properties,
                                         Mode mode, double acceleration, RobotState& state) {
   using lane::numbers_between;

@@ -13,8 +13,8 @@ namespace muro::simplified {
 
 namespace {
 
-/// The box around a shape that stands at `pose`; empty for what has no size, and for a mesh that cannot be read: what
-/// collides with it reports that.
+/// Returns the box around a shape at `pose`. The box is empty for a shape without size, and for a mesh that cannot be
+/// read: the algorithm that collides with it reports that.
 Aabb box_around(const Connector& c, const Shape& shape, const Pose& pose, mesh::Store& meshes) {
   Aabb box;
   if (shape.kind == ShapeKind::plane) return box;

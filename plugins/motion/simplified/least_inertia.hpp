@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Inertias that contacts can hold.
+// Inertias that are large enough for contacts.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@
 
 namespace muro::simplified {
 
-/// Adds what the inertia of the whole robot lacks to its heaviest body, also for algorithms that read `inertial` later,
-/// such as those of contact; whether it lacks something. The box is that around its collision shapes with the joints at
-/// `positions`, one a link; without shapes that have a size (planes have none) nothing is lacking. `inertias`: of all
-/// links. `meshes`: reads those of the shapes. [setup]
+/// Adds the missing inertia of the whole robot to its heaviest body, also for algorithms that read `inertial` later,
+/// such as contact algorithms. Returns whether some was missing. The box is around the collision shapes with the joints
+/// at `positions` (one per link); without shapes that have a size (planes have none) nothing is missing. `inertias`: of
+/// all links. `meshes`: reads the meshes of the shapes. [setup]
 bool complete_inertia(Connector& c, const RobotView& robot, std::span<const double> positions,
                       std::vector<Inertia>& inertias, mesh::Store& meshes);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model: what robots that kernels move together have in common.
+// A model: the common data of robots that kernels move together.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace muro::simplified {
 
-/// Robots with the same masses and joints, whose joints lie in memory in the same way.
+/// Data of robots with the same masses and joints and the same layout of joints in memory.
 struct Model {
   RigidMass mass;
-  /// Joints that kernels move; those of one mode.
+  /// Joints of one mode that kernels move.
   struct Group {
     Mode mode = Mode::velocity;
     std::vector<Joint> joints;
@@ -25,12 +25,12 @@ struct Model {
   bool single_kernel = true;  ///< one call of a kernel moves it
   bool operator==(const Model&) const = default;
 
-  /// Adds the groups of a robot, whose joints accelerate by at most `acceleration` (rad/s^2 or m/s^2). Returns where
-  /// the state of each lies, at least one; the first is `base` with the joints of the first group. [setup]
+  /// Adds the groups of a robot. Its joints accelerate by at most `acceleration` (rad/s^2 or m/s^2). Returns the state
+  /// addresses of each group, at least one; the first is `base` with the joints of the first group. [setup]
   std::vector<RobotState> add_groups(const RobotView& robot, const std::vector<JointProperties>& properties,
                                      double acceleration, const RobotState& base);
 
-  /// Puts the joints of a group into `batch`, if there is this group.
+  /// Puts the joints of a group into `batch`, if the group exists.
   void set_joints(BatchParameters& batch, std::size_t group) const {
     if (group >= groups.size()) return;
     batch.mode = groups[group].mode;
@@ -39,11 +39,11 @@ struct Model {
   }
 };
 
-/// The mass properties of a robot, all of whose bodies together have the inertia `total` in the frame of the base.
-/// Throws Error when the mass or a principal moment is not positive. [setup]
+/// Returns the mass properties of a robot. `total`: inertia of all its bodies together in the frame of the base. Throws
+/// Error when the mass or a principal moment is not positive. [setup]
 RigidMass rigid_mass(const RobotView& robot, const Inertia& total);
 
-/// The number of the model among those that are known; a new one is added. [setup]
+/// Returns the number of the model among the known models; adds a new model. [setup]
 std::uint32_t number_of(Model model, std::vector<Model>& known);
 
 }  // namespace muro::simplified

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernels: joints, and bases of robots whose joints move no mass, such as vehicles on wheels.
+// Kernels that move joints, and bases of robots whose joints move no mass, such as vehicles on wheels.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace muro::simplified {
 
 enum class Mode { velocity, position, acceleration };
 
-/// What a joint may do; rad or m.
+/// Limits of a joint; rad or m.
 struct JointRange {
   static constexpr double infinite = __builtin_huge_val();  ///< no limit
   double lower = -infinite, upper = infinite;
@@ -26,12 +26,12 @@ struct Joint {
   std::ptrdiff_t position = 0, velocity = 0, target = 0;
   int leader = -1;  ///< number of the joint that it follows; -1: follows its own target
   double multiplier = 1, offset = 0;
-  bool four = false;  ///< the numbers of this joint and the next three lie side by side, and none of them has a leader
+  bool four = false;  ///< this joint and the next three are adjacent in memory, and none has a leader
 
   friend bool operator==(const Joint&, const Joint&) = default;
 };
 
-/// Mass properties of a robot whose joints move no mass. Matrices column by column, in the frame of the base.
+/// Mass properties of a robot whose joints move no mass. Matrices are column by column, in the frame of the base.
 struct RigidMass {
   double inverse_mass = 0;  ///< 1/kg
   double com[3] = {};       ///< m
@@ -41,7 +41,7 @@ struct RigidMass {
   friend bool operator==(const RigidMass&, const RigidMass&) = default;
 };
 
-/// Where the state of a robot lies: of its base, of its first joint.
+/// Addresses of the state of a robot: of its base and of its first joint.
 struct RobotState {
   double* pose = nullptr;
   double* twist = nullptr;
@@ -51,22 +51,22 @@ struct RobotState {
   const double* targets = nullptr;
 };
 
-/// What the robots of one call of a kernel have in common.
+/// Common data of the robots in one call of a kernel.
 struct BatchParameters {
   Mode mode = Mode::velocity;
   const Joint* joints = nullptr;
   int joint_count = 0;
   const RigidMass* mass = nullptr;
   int wrenches = 1;                                    ///< contributions to the wrench of each robot
-  const double* const* other_contributions = nullptr;  ///< all but the first of them, robot by robot
+  const double* const* other_contributions = nullptr;  ///< all except the first, robot by robot
   double gravity[3] = {};                              ///< m/s^2
   double dt = 0;                                       ///< s
 };
 
-/// Each carries up to eight robots over a step: the bits that each of them gets alone.
+/// Each kernel advances up to eight robots by a step, with the same bits as each robot alone.
 struct Kernels {
   void (*move_joints)(const BatchParameters& batch, const RobotState* robots, int count);
-  /// Joints and base. Returns a bit for each robot whose state is no longer finite.
+  /// Moves joints and base. Returns a bit for each robot whose state is no longer finite.
   unsigned (*move_rigid)(const BatchParameters& batch, const RobotState* robots, int count);
 };
 MURO_DECLARE_KERNELS(Kernels, kernels)

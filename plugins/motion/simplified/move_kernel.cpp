@@ -10,7 +10,7 @@ namespace {
 using namespace lane;
 using joints::JointState;
 
-/// RobotState of as many robots as S has values; with fewer robots, the first one stands for those that lack.
+/// RobotState of as many robots as S has values. With fewer robots, the first one fills the missing places.
 template <class S>
 struct States {
   Places<S, double> pose, twist, positions, velocities;
@@ -25,7 +25,7 @@ struct States {
   }
 };
 
-/// A function of its own, since it needs many registers and wheels do not need it.
+/// Follows a target within limits. It is a separate function because it needs many registers and wheels do not need it.
 template <class S>
 [[gnu::noinline]] void follow_within_limits(Mode mode, JointState<S>& joint, const S& target, const JointRange& range,
                                             double dt) {
@@ -75,7 +75,7 @@ MURO_INLINE void move_joints(const BatchParameters& batch, const States<S>& stat
   for (int k = 0; leads && k < batch.joint_count; ++k) {
     const Joint& j = batch.joints[k];
     if (j.leader < 0) continue;
-    const Joint& leader = batch.joints[j.leader];  // follows nobody itself
+    const Joint& leader = batch.joints[j.leader];  // has no leader itself
     const S factor(j.multiplier);
     const S q[] = {S(j.offset) + factor * load<S>(as_read(states.positions), leader.position)};
     const S v[] = {factor * load<S>(as_read(states.velocities), leader.velocity)};
@@ -89,7 +89,7 @@ MURO_INLINE M3<S> matrix_of(const double* columns) {
   return {splat<S>(columns), splat<S>(columns + 3), splat<S>(columns + 6)};
 }
 
-/// Force and torque: all contributions, in their order.
+/// Sums force and torque of all contributions, in their order.
 template <class S>
 MURO_INLINE TwistOf<S> wrench_of(const BatchParameters& batch, const States<S>& states, int count) {
   const V3<S> none{S(0), S(0), S(0)};

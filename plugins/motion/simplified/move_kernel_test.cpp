@@ -14,7 +14,7 @@ namespace {
 
 constexpr int joint_count = 7;
 
-/// Four wheels, a joint with limits, one with an upper limit, and one that follows the fifth.
+/// Four wheels, a joint with limits, a joint with an upper limit, and a joint that follows the fifth.
 struct Vehicle {
   Pose pose;
   Twist twist;
@@ -34,7 +34,7 @@ struct Vehicle {
 constexpr RigidMass vehicle_mass{
     0.2, {0.01, -0.02, 0.03}, {0.05, 0.001, 0, 0.001, 0.07, 0, 0, 0, 0.1}, {20, -0.3, 0, -0.3, 14, 0, 0, 0, 10}};
 
-/// `together`: the wheels are moved at once.
+/// Returns the joints. `together`: whether the wheels are moved at once.
 std::vector<Joint> joints(bool together) {
   std::vector<Joint> all(joint_count);
   for (std::ptrdiff_t k = 0; k < joint_count; ++k) all[std::size_t(k)].position = all[std::size_t(k)].velocity = k;
@@ -70,7 +70,7 @@ std::vector<Vehicle> team(std::mt19937& random, std::size_t count, double spin) 
   return all;
 }
 
-/// Moves all over a step, `at_once` by `at_once`; returns a bit for each that broke.
+/// Moves all vehicles by a step, `at_once` at a time. Returns a bit for each that is no longer finite.
 unsigned move(std::vector<Vehicle>& all, lane::Isa isa, int at_once, const std::vector<Joint>& joints,
               Mode mode = Mode::velocity, int wrenches = 1) {
   std::vector<RobotState> states;
@@ -96,7 +96,7 @@ unsigned move(std::vector<Vehicle>& all, lane::Isa isa, int at_once, const std::
   return broken;
 }
 
-/// Slow spins take the series, fast ones sine and cosine, and a lane may have both.
+/// Slow spins use the series, fast spins use sine and cosine, and a lane may have both.
 TEST(MoveKernel, RobotsMovedTogetherGetTheBitsOfEachAlone) {
   std::mt19937 random(5);
   for (const double spin : {1.0, 300.0})

@@ -21,12 +21,12 @@ struct RigidBody {
 
 /// Advances the rotation by `dt` (s) under a constant `torque` (N m, world axes, about the centre of mass).
 ///
-/// Midpoint rule on the angular momentum L = R I R^T w (Hairer, Lubich, Wanner, Geometric Numerical
-/// Integration, Section VII.5, in explicit form): L advances by torque * dt exactly, the attitude by the spin
-/// that belongs to the middle of the step. Second order; without torque |L| and its direction do not change.
-/// `inertia` (kg m^2, axes of the body, about the centre of mass) is that of the start; `inverse_half` and
-/// `inverse_end` invert those of the middle and the end: the same for a rigid body. `r` is the matrix of
-/// body.orientation; returns that of the new one.
+/// Uses the midpoint rule on the angular momentum L = R I R^T w (Hairer, Lubich, Wanner, Geometric Numerical
+/// Integration, Section VII.5, in explicit form). L advances by torque * dt exactly, the attitude by the spin in the
+/// middle of the step. It is of second order; without torque, |L| and its direction do not change. `inertia` (kg m^2,
+/// axes of the body, about the centre of mass): at the start. `inverse_half`, `inverse_end`: inverses of the inertias
+/// in the middle and at the end, equal for a rigid body. `r`: matrix of body.orientation. Returns the matrix of the new
+/// orientation.
 template <class S>
 MURO_INLINE M3<S> advance_rotation(RigidBody<S>& body, const M3<S>& r, const M3<S>& inertia, const M3<S>& inverse_half,
                                    const M3<S>& inverse_end, const V3<S>& torque, double dt) {
@@ -48,9 +48,9 @@ MURO_INLINE V3<S> advance_centre(RigidBody<S>& body, const V3<S>& acceleration, 
   return shift;
 }
 
-/// Newton and Euler at the centre of mass. The base is where the centre is not: base = centre - R com. `before`,
-/// `after`: at the start and the end of the step; `inverse_half`, `inverse_end`: of the tensors in the middle and at
-/// the end.
+/// Moves the base by Newton's and Euler's equations at the centre of mass: base = centre - R com. `before`, `after`:
+/// mass at the start and the end of the step; `inverse_half`, `inverse_end`: inverses of the tensors in the middle and
+/// at the end.
 template <bool articulated, class S>
 MURO_INLINE void move_base(lane::PoseOf<S>& pose, lane::TwistOf<S>& twist, const V3<S>& force,
                            const V3<S>& torque_at_base, const Mass<S>& before, const Mass<S>& after,

@@ -20,7 +20,7 @@ V3<double> plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 M3<double> plain(const Mat3& m) { return {plain(Vec3(m.col(0))), plain(Vec3(m.col(1))), plain(Vec3(m.col(2)))}; }
 Vec3 vector(const V3<double>& v) { return {v.x, v.y, v.z}; }
 
-/// The integrator on vectors of Eigen.
+/// A body for the integrator, with vectors of Eigen.
 struct Body {
   Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
   Quat orientation = Quat::Identity();

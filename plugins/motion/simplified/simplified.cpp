@@ -184,7 +184,8 @@ class Simplified final : public WatchedMotion {
     robots_[number] = std::move(r);
   }
 
-  /// Of each link, whether its joint has a PD drive in mode position. Those without inertia meet their targets.
+  /// Returns for each link whether its joint has a PD drive in mode position. Joints without inertia have none and meet
+  /// their targets.
   static std::vector<bool> joints_with_position_drives(const Connector& c, const RobotView& robot,
                                                        std::span<const Inertia> inertias, std::span<const double> start,
                                                        bool forces) {
@@ -201,7 +202,7 @@ class Simplified final : public WatchedMotion {
     return result;
   }
 
-  /// Of a robot whose joints no force can move: those that forces would move stand still.
+  /// Notes a robot whose joints no force can move, and whether some stand still because only forces would move them.
   void note_without_forces(const Connector& c, const RobotView& robot, const std::vector<DriveMode>& modes) {
     const auto moves = [](const Link& link) { return link.joint != JointKind::fixed; };
     if (!fixed_ || has_moving_mass(c, robot) || std::none_of(robot.links.begin(), robot.links.end(), moves)) return;
@@ -220,7 +221,7 @@ class Simplified final : public WatchedMotion {
     if (broken != 0) fail(begin + std::uint32_t(std::countr_zero(broken)));
   }
 
-  /// Joints, then bases.
+  /// Moves joints, then bases.
   void move_by_steps(BatchParameters& batch, const Model& model, std::uint32_t begin, std::uint32_t end) {
     const auto articulation = [&](std::uint32_t i) -> Articulation& {
       return articulations_[std::size_t(robots_[i].articulation)];

@@ -10,7 +10,7 @@ namespace {
 
 using Parameters = std::map<std::string, ParameterInput>;
 
-/// A trunk with a two-link arm, a sliding mass and a finger that mimics the elbow: nothing balanced.
+/// A trunk with a two-link arm, a sliding mass and a finger that mimics the elbow; no part is balanced.
 RobotTree arm_robot() {
   return test::tree_of([](RobotBuilder& b) {
     b.base("trunk");
@@ -50,7 +50,7 @@ struct Flight : test::Scene {
     for (const Link& f : robot.links) inertias.push_back(world().value(f.object, keys::inertial));
   }
   double& of(const char* joint, const Key<double>& key) { return world().value(std::string("r/") + joint, key); }
-  /// Centre of mass in the world, from poses of all bodies.
+  /// Returns the centre of mass in the world, from poses of all bodies.
   Vec3 centre() {
     std::vector<double> q;
     for (const Link& f : robot.links)
@@ -92,7 +92,7 @@ TEST(Simplified, TheTwistOfTheBaseIsTheDerivativeOfItsPose) {
 }
 
 TEST(Simplified, PullingALimbInSpeedsASpinUp) {
-  // I(q) w about the centre of mass stays. A weight on a radial slide, spun about z: w rises as the moment falls.
+  // I(q) w about the centre of mass is constant. A weight on a radial slide spins about z: w rises as the moment falls.
   test::Scene s;
   const auto tree = test::tree_of([](RobotBuilder& b) {
     b.base("hub");
@@ -181,7 +181,7 @@ TEST(Simplified, ARestoredSnapshotGoesOnToTheSameBits) {
   EXPECT_EQ(s.state_hash(), end);
 }
 
-/// The message with which a robot is refused.
+/// Returns the message with which a robot is refused.
 std::string refusal(const std::function<void(test::Scene&)>& make) {
   test::Scene s;
   make(s);

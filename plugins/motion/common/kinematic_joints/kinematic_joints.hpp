@@ -13,16 +13,16 @@
 
 namespace muro {
 
-/// All joints of one robot. Within a step the velocity of a joint is constant, so that a ramp at the limit of speed is
-/// exact for any step size; `joint.velocity` is that velocity. A joint without a target stands still. Mimic joints
-/// follow their leaders, whatever their own limits are.
+/// All joints of one robot. The velocity of a joint is constant within a step, and `joint.velocity` is that velocity.
+/// So a ramp at the speed limit is exact for any step size. A joint without a target stands still. Mimic joints follow
+/// their leaders and ignore their own limits.
 class KinematicJoints {
  public:
   KinematicJoints() = default;
-  /// `modes`: of every link's joint. Joints in mode effort or passive stand still. Empty: each joint follows
-  /// `joint.position.target` where something writes it, else `joint.velocity.target`; call follow_what_is_written().
-  /// `left_out`: the links whose joints, and all that mimic them, are no business of this; empty: none. Throws Error
-  /// for a joint that starts outside its limits. [setup]
+  /// `modes`: mode of every link's joint. Joints in mode effort or passive stand still. When `modes` is empty, each
+  /// joint follows `joint.position.target` if something writes it, else `joint.velocity.target`; then call
+  /// follow_what_is_written(). `left_out`: links whose joints, and the joints that mimic them, are not moved here;
+  /// empty: none. Throws Error for a joint that starts outside its limits. [setup]
   KinematicJoints(Connector& c, const RobotView& robot, std::span<const DriveMode> modes,
                   const std::vector<bool>& left_out = {}) {
     const auto is_one = [&](const Link& link, std::size_t i) {
@@ -64,7 +64,7 @@ class KinematicJoints {
     }
   }
 
-  /// When all algorithms have connected, for joints without given modes. [setup]
+  /// Chooses the targets of joints without given modes. Call it when all algorithms have connected. [setup]
   void follow_what_is_written(const Connector& c) {
     for (Joint& j : joints_) {
       if (!j.position_target || !is_written(c, j.object, keys::joint_position_target)) continue;
@@ -73,8 +73,8 @@ class KinematicJoints {
     }
   }
 
-  /// Targets of position move evenly to each new value in `period` (s); 0: at once. `base`: the object that keeps what
-  /// this remembers. [setup]
+  /// Moves position targets evenly to each new value within `period` (s); 0: at once. `base`: object that keeps the
+  /// memory of this. [setup]
   void interpolate(Connector& c, ObjectId base, double period) {
     if (period <= 0 || joints_.empty()) return;
     constexpr std::size_t one = TargetInterpolation::numbers;
@@ -84,7 +84,7 @@ class KinematicJoints {
     for (std::size_t i = 0; i < joints_.size(); ++i)
       joints_[i].interpolation = TargetInterpolation(std::span(memory + i * one, one));
   }
-  /// Another motion has moved the joints so far. [between steps]
+  /// Takes the joints over from another motion that has moved them so far. [between steps]
   void take_over() const {
     for (const Joint& j : joints_) j.interpolation.invalidate();
   }
@@ -92,7 +92,7 @@ class KinematicJoints {
   /// Whether some joint is in a mode in which only forces move it.
   bool stands_still() const { return stands_still_; }
 
-  /// Carries them on by `dt` (s). Throws Error with the name of a joint whose target is not finite. [step]
+  /// Moves all joints forward by `dt` (s). Throws Error with the name of a joint whose target is not finite. [step]
   void move(double dt) const {
     for (const Joint& j : joints_)
       if (!j.move(dt, period_))
@@ -113,7 +113,8 @@ class KinematicJoints {
     DriveMode mode = DriveMode::velocity;
     TargetInterpolation interpolation;
 
-    /// Whether the target is finite. A joint that was put beyond its limits may come back, and goes no further.
+    /// Moves the joint. Returns whether the target is finite. A joint that was put beyond its limits may come back but
+    /// not go further.
     bool move(double dt, double period) const {
       const double from = *position, low = std::min(lower, from), high = std::max(upper, from);
       double to = 0, v = 0;
@@ -148,7 +149,7 @@ class KinematicJoints {
   }
 
   std::vector<Joint> joints_;
-  std::vector<std::string> names_;  ///< of them
+  std::vector<std::string> names_;  ///< names of the joints
   std::vector<Mimic> mimics_;
   double period_ = 0;  ///< s, see interpolate()
   bool stands_still_ = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Robots on a fixed base whose joints no force can move, since no link that they move has mass: many models of
-// industrial arms.
+// Robots on a fixed base whose moving links have no mass, so no force can move their joints. Many models of industrial
+// arms are like this.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ inline bool has_moving_mass(const Connector& c, const RobotView& robot) {
   return false;
 }
 
-/// Says once that these robots are moved without forces. `still`: some of their joints are in modes in which only
-/// forces move them. [setup]
+/// Logs once that these robots are moved without forces. `still`: whether some of their joints are in modes in which
+/// only forces move them. [setup]
 inline void tell_of_robots_without_forces(Connector& c, const std::vector<std::string>& robots, bool still) {
   if (robots.empty()) return;
   constexpr std::size_t most = 3;

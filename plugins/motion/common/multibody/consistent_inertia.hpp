@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Physically consistent inertias: those that some body has (Wensing, Kim and Slotine, 2018). Of its principal moments,
-// none exceeds the sum of the other two.
+// Physically consistent inertias: inertias that a real body can have (Wensing, Kim and Slotine, 2018). No principal
+// moment exceeds the sum of the other two.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -10,10 +10,11 @@
 
 namespace muro {
 
-/// Model files hold moments that no body has. In Euler's equations the spin of such a body grows without end: its
-/// (I_a - I_b) / I_c, at most 1 for every body, has no bound, and no step is short enough. This is `inertia` with both
-/// smaller moments raised by the same amount, until their sum is the largest: the nearest flat body. None where the
-/// inertia is consistent, up to a thousandth of the largest moment (the rounding in files), or not finite. [setup]
+/// Returns `inertia` with both smaller moments raised by the same amount until their sum is the largest: the nearest
+/// flat body. Returns nothing when the inertia is not finite, or is consistent up to a thousandth of the largest moment
+/// (the rounding in files). Model files hold moments that no real body has. With Euler's equations the spin of such a
+/// body grows without end: (I_a - I_b) / I_c is at most 1 for a real body, but unbounded here, and no step is short
+/// enough. [setup]
 inline std::optional<Inertia> nearest_consistent_inertia(const Inertia& inertia) {
   const Eigen::SelfAdjointEigenSolver<Mat3> principal(inertia.tensor());
   Vec3 moments = principal.eigenvalues();  // in increasing order

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all motions by multi-body engines say of themselves.
+// The description that all motions by multi-body engines share.
 #pragma once
 
 #include "muro/description.hpp"
@@ -32,7 +32,7 @@ inline constexpr Features features =
     feature_joint_friction | feature_mimic_joints | feature_link_dynamics | feature_gyroscopic | feature_contact |
     feature_friction | feature_restitution | feature_convex_meshes | feature_fixed_base | feature_self_collision;
 
-/// What a motion by an engine says of itself.
+/// Returns the description of a motion by an engine.
 constexpr Description engine_description(std::string_view id, std::string_view version, std::string_view summary,
                                          const Rows<Parameter>& parameters, Features more_features = 0) {
   return {.id = id,

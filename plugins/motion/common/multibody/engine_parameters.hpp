@@ -9,7 +9,7 @@ namespace muro::multibody {
 inline constexpr std::string_view joint_modes[] = {"auto", "velocity", "position", "effort", "passive"};
 inline constexpr std::string_view base_modes[] = {"free", "fixed"};
 
-// Of each robot.
+// Parameters of each robot.
 inline constexpr Parameter world_name = text("world", "", "robots that name the same world share it and meet in it");
 inline constexpr Parameter base_mode =
     text("base", "free", "whether the base is fixed to the world").one_of(base_modes);
@@ -21,7 +21,7 @@ inline constexpr Parameter joint_mode =
 inline constexpr Parameter self_collision =
     boolean("self_collision", false, "whether links of the robot touch each other, but neighbours");
 
-// Of a world: equal for all of its robots.
+// Parameters of a world: equal for all of its robots.
 inline constexpr Parameter mimic_gain =
     real("mimic_gain", "1/s", 100,
          "speed of a mimic joint beyond that of its leader by its distance to where it belongs")
@@ -29,7 +29,7 @@ inline constexpr Parameter mimic_gain =
 inline constexpr Parameter substeps =
     integer("substeps", 1, "steps of the engine in each step of the motion").between(1, 1000);
 
-// Of worlds whose engines know them.
+// Parameters of worlds whose engines support them.
 inline constexpr std::string_view mesh_modes[] = {"convex", "exact"};
 inline constexpr Parameter scenery_meshes =
     text("meshes", "convex", "meshes of scenery collide as their convex hulls or as they are").one_of(mesh_modes);
@@ -49,7 +49,7 @@ inline constexpr Parameter parameters_of_worlds[] = {mimic_gain, substeps};
 inline constexpr auto common_parameters =
     joined(parameters_of_robots, drive_parameters, watch_parameters, parameters_of_worlds);
 
-/// Whether robots of one world may differ in it.
+/// Whether robots of one world may have different values of this parameter.
 inline bool is_of_robot(std::string_view parameter) {
   for (const Parameter& p : joined(parameters_of_robots, drive_parameters, watch_parameters))
     if (p.name == parameter) return true;

@@ -20,7 +20,7 @@ void ExternalBodies::connect(Connector& c, const std::vector<bool>& own) {
     if (!own[i]) continue;
     const Item& item = c.items()[i];
     left_out[index_of(item.robot->id)] = true;
-    if (const auto original = c.constant(item.robot->base(), keys::shadow_of))  // they are in the same place
+    if (const auto original = c.constant(item.robot->base(), keys::shadow_of))  // both are in the same place
       left_out[std::size_t(c.robot_of(*original))] = true;
   }
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {

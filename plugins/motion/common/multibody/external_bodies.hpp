@@ -8,15 +8,17 @@
 
 namespace muro::multibody {
 
-/// All that a world's robots can touch and that the world does not move: scenery, and the bodies of other robots.
+/// All bodies that a world's robots can touch and that the world does not move: scenery, and the bodies of other
+/// robots.
 class ExternalBodies {
  public:
-  /// Of the scene, but not of those of the items' robots that are the world's `own`, nor of the originals of which they
-  /// are shadows. `own`: one an item. [setup]
+  /// Collects the external bodies of the scene. Leaves out the items' robots that the world moves (`own`, one per
+  /// item), and the originals of those that are shadows. [setup]
   void connect(Connector& c, const std::vector<bool>& own);
-  /// Adds them, with their present states. Throws Error with the name of one that the engine cannot take. [setup]
+  /// Adds the bodies to the world with their present states. Throws Error with the name of a body that the engine
+  /// cannot take. [setup]
   void add_to(World& world);
-  /// Properties to states. Throws Error with the name of a body that is nowhere.
+  /// Copies properties into states. Throws Error with the name of a body whose pose or twist is invalid.
   void import();
 
  private:

@@ -6,7 +6,7 @@
 
 namespace muro::multibody {
 
-/// States of all bodies from the state of the base and the joints. `out`: one per body.
+/// Computes the states of all bodies from the state of the base and the joints. `out`: one per body.
 void forward_kinematics(const RobotModel& model, const RobotState& state, std::span<BodyState> out);
 
 }  // namespace muro::multibody

@@ -9,8 +9,8 @@ namespace muro::multibody {
 namespace {
 
 constexpr int order = 20;
-constexpr double longest_turn = 0.1;  ///< rad, of one series
-constexpr int most_parts = 10000;     ///< 1000 rad a step: nobody turns that fast
+constexpr double longest_turn = 0.1;  ///< rad, in one series
+constexpr int most_parts = 10000;     ///< 1000 rad a step: no real body turns that fast
 
 using Quaternion = Eigen::Vector4d;  ///< x, y, z, w
 
@@ -21,7 +21,7 @@ Quaternion times(const Quaternion& q, const Vec3& v) {
   return {vector.x(), vector.y(), vector.z(), -u.dot(v)};
 }
 
-/// A turn that is short enough for the series. `momentum`: in axes of the body.
+/// Advances by a turn that is short enough for the series. `momentum`: in axes of the body.
 void advance_part(Quaternion& q, Vec3& momentum, const Mat3& inverse, double h) {
   std::array<Vec3, order + 1> l, w;
   std::array<Quaternion, order + 1> p;

@@ -63,7 +63,7 @@ DriveTarget position_drive_target(const RigidBody& body, const JointState& joint
   t.damping = drive.damping;
   t.max_effort = limits.effort;
   if (!(std::abs(drive.velocity) > limits.velocity)) return t;
-  // Where it would go faster than the model allows, it holds the limit, with no more effort than it has there.
+  // A drive that would go faster than the model allows holds the speed limit, with no more effort than it has there.
   const double effort = drive.effort(joint.velocity) / (1 + dt * drive.damping / inertia);
   const double next = joint.velocity + dt / inertia * std::clamp(effort, -limits.effort, limits.effort);
   const double fastest = std::copysign(limits.velocity, drive.velocity);

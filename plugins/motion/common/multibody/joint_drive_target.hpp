@@ -7,25 +7,25 @@
 
 namespace muro::multibody {
 
-/// What the drive of a body's joint is to do in a step, within the limits of the model. `joint`: its state; `target`:
-/// what its drive mode follows, null where it follows nothing. Not for joints in mode position.
+/// Returns the task of a joint's drive in a step, within the limits of the model. `joint`: state of the joint;
+/// `target`: the value that the drive mode follows, null when it follows nothing. Not for joints in mode position.
 DriveTarget drive_target_of(const RigidBody& body, const JointState& joint, const double* target);
 
-/// What of an effort (N m or N) pushes the joint no faster than the model's limit of speed within a step of `dt` (s).
-/// `inertia` (kg m^2 or kg): of the joint in free motion.
+/// Reduces an effort (N m or N) so that it pushes the joint no faster than the model's speed limit within a step of
+/// `dt` (s). `inertia` (kg m^2 or kg): inertia of the joint in free motion.
 double within_speed_limit(double effort, const RigidBody& body, const JointState& joint, double inertia, double dt);
-/// Whether that is to be asked: the effort pushes a joint that is near the limit.
+/// Whether within_speed_limit() is needed: the effort pushes a joint that is near the limit.
 bool nears_speed_limit(double effort, const RigidBody& body, const JointState& joint);
 
-/// The same of a mimic joint. `leader`: the state of the joint which it mimics; `gain`: 1/s; `is_coupled`: the engine
-/// holds the two together by a constraint, and what moves the mimic joint beside that is its friction; else it has a
-/// drive that follows, as strong as the model says.
+/// Returns the task of a mimic joint's drive. `leader`: state of the joint that it mimics; `gain`: 1/s. `is_coupled`:
+/// the engine couples both joints by a constraint, and the only other effort on the mimic joint is its friction.
+/// Otherwise a drive makes it follow, as strong as the model says.
 DriveTarget mimic_target(const RigidBody& body, const JointState& joint, const JointState& leader, double gain,
                          bool is_coupled);
 
-/// The same of a joint in mode position, in a step of `dt` (s) at whose end it is to be at `reference`, within limits.
-/// `inertia` (kg m^2 or kg): of the joint in free motion, by which it is seen whether the drive would pass the limit of
-/// speed.
+/// Returns the task of a drive in mode position. At the end of the step of `dt` (s) the joint shall be at `reference`,
+/// within limits. `inertia` (kg m^2 or kg): inertia of the joint in free motion; it shows whether the drive would pass
+/// the speed limit.
 DriveTarget position_drive_target(const RigidBody& body, const JointState& joint, const PdGains& gains,
                                   const Reference& reference, double inertia, double dt);
 

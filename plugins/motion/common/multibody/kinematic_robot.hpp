@@ -9,11 +9,11 @@
 
 namespace muro::multibody {
 
-/// A robot on a fixed base whose moving links have no mass, so that no engine can move it: its joints follow their
-/// targets within limits. In each world it is a body that no force moves.
+/// A robot on a fixed base whose moving links have no mass, so no engine can move it. Its joints follow their targets
+/// within limits. In each world it is a body that no force moves.
 class KinematicRobot {
  public:
-  /// Whether a robot with these parameters is one. [setup]
+  /// Whether a robot with these parameters is a kinematic robot. [setup]
   static bool is_one(const Connector& c, const RobotView& robot, const Parameters& p);
 
   /// `level`: the motion.level at which this motion moves the robot. [setup]
@@ -21,11 +21,11 @@ class KinematicRobot {
 
   /// Whether some of its joints are in modes in which only forces move them.
   bool stands_still() const { return joints_.stands_still(); }
-  /// Whether it is this motion that moves the robot.
+  /// Whether this motion moves the robot.
   bool is_active() const { return *active_level_ == level_; }
-  /// This motion moves the robot from now on.
+  /// Lets this motion move the robot from now on.
   void take_over() const;
-  /// Carries it on by `dt` (s), if it is this motion that moves it. Throws Error for a target that is not finite.
+  /// Moves the robot by `dt` (s), if this motion moves it. Throws Error for a target that is not finite.
   void step(double dt) const;
 
  private:
@@ -38,7 +38,7 @@ class KinematicRobot {
   std::vector<Out<Wrench>> contact_wrenches_;
 };
 
-/// Tells the user which robots are such ones and have joints. `robots`: one an item; null for others. [setup]
+/// Logs which robots are kinematic and have joints. `robots`: one per item, null for other robots. [setup]
 void tell_of(Connector& c, const std::vector<const KinematicRobot*>& robots);
 
 }  // namespace muro::multibody

@@ -7,11 +7,11 @@
 
 namespace muro::multibody {
 
-/// The state in which the last step left a robot, kept in a state block: a robot that is elsewhere when the next step
-/// begins was moved from outside.
+/// The state of a robot at the end of the last step, kept in a state block. A robot that has another state when the
+/// next step begins was moved from outside.
 class LastState {
  public:
-  /// How many numbers it takes.
+  /// Number of values that it stores.
   static constexpr std::size_t size_for(std::size_t bodies) { return joints_at + 2 * bodies; }
 
   LastState() = default;
@@ -46,7 +46,7 @@ class LastState {
   }
 
  private:
-  // Whether the rest counts, pose, twist, then position and velocity of each body's joint.
+  // Layout: whether the rest is valid, pose, twist, then position and velocity of each body's joint.
   static constexpr std::size_t valid_at = 0, pose_at = 1, twist_at = 8, joints_at = 14;
 
   std::span<double> numbers_;

@@ -13,14 +13,14 @@
 
 namespace muro::multibody {
 
-/// The collision meshes of a scene, each read once, as the shapes `MeshShape` that an engine makes of them; and what
-/// touches heightmaps: these, and the hulls of robots.
+/// The collision meshes of a scene. Each is read once and becomes a `MeshShape` of the engine. Also holds the
+/// heightmaps and the hulls of robots that can touch them.
 template <class MeshShape>
 class MeshShapes {
  public:
-  /// Reads the meshes of all collision shapes. `exact`: scenery collides as its meshes are; all else collides as their
-  /// convex hulls. `of_hull`, `of_mesh`: make a shape from a mesh::Hull or mesh::Mesh. A mesh that cannot be
-  /// read, or has no hull, is refused: see mesh::refuse_collision_mesh. [setup]
+  /// Reads the meshes of all collision shapes. `exact`: scenery collides with its exact meshes; everything else
+  /// collides with convex hulls. `of_hull`, `of_mesh`: make a shape from a mesh::Hull or mesh::Mesh. A mesh that cannot
+  /// be read, or has no hull, is refused: see mesh::refuse_collision_mesh. [setup]
   template <class OfHull, class OfMesh>
   void load(Connector& c, bool exact, OfHull of_hull, OfMesh of_mesh) {
     exact_ = exact;
@@ -45,12 +45,12 @@ class MeshShapes {
     }
   }
 
-  /// Of a shape of kind mesh. `moves`: it belongs to a robot.
+  /// Returns the engine's shape for a shape of kind mesh. `moves`: whether it belongs to a robot.
   const MeshShape& of(const Shape& shape, bool moves) const { return shapes_.at(key_of(shape, moves || !exact_)); }
-  /// Of a shape of kind heightmap, of scenery. As long as this lives.
+  /// Returns the heightmap of a scenery shape of kind heightmap. Valid as long as this object lives.
   Heightmap heightmap(const Shape& shape) const { return heightmaps_.of(shape); }
-  /// A shape of a robot, for terrain_contact::find_contacts; its pose is left open. A mesh has no hull in a scene
-  /// without heightmaps.
+  /// Returns a shape of a robot for terrain_contact::find_contacts, with its pose not set. A mesh has no hull in a
+  /// scene without heightmaps.
   terrain_contact::ConvexShape convex_shape(const Shape& shape) const {
     const auto hull = hulls_.find(key_of(shape, true));
     return {
@@ -58,14 +58,14 @@ class MeshShapes {
   }
 
  private:
-  /// Which file, at which scale, and whether as its hull.
+  /// File, scale, and whether the shape is the hull.
   using Key = std::tuple<TextId, double, double, double, bool>;
   static Key key_of(const Shape& s, bool hull) { return {s.mesh, s.size.x(), s.size.y(), s.size.z(), hull}; }
 
   bool exact_ = false;
   std::map<Key, MeshShape> shapes_;
   terrain_contact::SceneHeightmaps heightmaps_;
-  std::map<Key, mesh::Hull> hulls_;  ///< of robots, where there are heightmaps
+  std::map<Key, mesh::Hull> hulls_;  ///< hulls of robots, when there are heightmaps
 };
 
 }  // namespace muro::multibody

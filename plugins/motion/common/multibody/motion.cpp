@@ -41,7 +41,7 @@ void WorldMotion::connect(Connector& c) {
   traits_.twist_lag = 0.5 / substeps_;
   traits_.couples_mimics = couples_mimics();
   configure(c);
-  traits_.advice = advice();  // which depends on what was configured
+  traits_.advice = advice();  // depends on what configure() has read
   for (std::uint32_t i = 0; i < c.items().size(); ++i) connect_robot(c, c.items()[i], c.parameters_of(i));
   std::vector<bool> own(c.items().size());
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = served_[i].by_world != nullptr;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part of a motion by a multi-body engine that does not depend on the engine: an external algorithm that imports
-// properties, lets its world advance, and exports (MuRoSimF, Section 3.2).
+// The part of a motion by a multi-body engine that does not depend on the engine. It is an external algorithm: it
+// imports properties, advances its world, and exports properties (MuRoSimF, Section 3.2).
 #pragma once
 
 #include <deque>
@@ -27,20 +27,20 @@ class WorldMotion : public Motion<Algorithm> {
 
   /// What the plugin says of itself.
   virtual const Description& description() const = 0;
-  /// What the engine needs of inertias.
+  /// Smallest inertias that the engine can use.
   virtual MinInertia min_inertia() const = 0;
-  /// Whether the engine has the inertias of the model's own file, and those of the scene do not count.
+  /// Whether the engine uses the inertias of the model's own file instead of those of the scene.
   virtual bool has_own_inertias() const { return false; }
-  /// Whether constraints of the engine hold mimic joints to their leaders. Else they have drives that follow, and their
-  /// leaders bear nothing of what these carry.
+  /// Whether constraints of the engine couple mimic joints to their leaders. Otherwise drives make mimic joints follow,
+  /// and the leaders do not feel the loads on them.
   virtual bool couples_mimics() const { return true; }
-  /// How many numbers of its own the engine keeps of a robot from step to step.
+  /// Number of values that the engine itself keeps for a robot from step to step.
   virtual std::size_t memory_of(const RobotModel& model) const = 0;
   /// Reads the engine's own parameters. [setup]
   virtual void configure(Connector& c) = 0;
-  /// What to try when the engine's forces grow: the end of "try ...".
+  /// Advice for a user when the engine's forces grow: the end of "try ...".
   virtual std::string_view advice() const = 0;
-  /// An empty world.
+  /// Returns an empty world.
   virtual std::unique_ptr<World> make_world() const = 0;
 
   Vec3 gravity() const { return gravity_; }
@@ -66,12 +66,12 @@ class WorldMotion : public Motion<Algorithm> {
   int substeps_ = 1;
   std::deque<WorldRobot> robots_;
   std::deque<KinematicRobot> kinematic_robots_;
-  /// How an item is moved: one of the two.
+  /// The robot of an item: one of the two pointers is set.
   struct Served {
     WorldRobot* by_world = nullptr;
     KinematicRobot* by_targets = nullptr;
   };
-  std::vector<Served> served_;  ///< one an item
+  std::vector<Served> served_;  ///< one per item
   ExternalBodies external_bodies_;
   std::unique_ptr<World> world_;
 };

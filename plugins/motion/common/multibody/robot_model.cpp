@@ -15,7 +15,7 @@ namespace muro::multibody {
 namespace {
 
 /// Raises `inertia` to at least `mass` and the principal moments of a ball of `radius`, and makes it physically
-/// consistent; whether it had to be changed.
+/// consistent. Returns whether it was changed.
 bool regularize(Inertia& inertia, double mass, double radius) {
   bool changed = false;
   if (!(inertia.mass >= mass)) {
@@ -39,8 +39,8 @@ bool regularize(Inertia& inertia, double mass, double radius) {
   return changed || consistent;
 }
 
-/// The mass (kg) whose weight, at the centre of mass of a body, takes a fiftieth of what the joints on its way to the
-/// base hold, as they stand at the start. `frames`: of the bodies, in that of the base.
+/// Returns the mass (kg) whose weight at the centre of mass of a body uses a fiftieth of the effort limits of the
+/// joints between it and the base, at their start positions. `frames`: frames of the bodies in the frame of the base.
 double bearable_mass(const RobotModel& model, std::size_t number, std::span<const Pose> frames) {
   constexpr double part = 0.02, gravity = 9.81;
   const Vec3 com = frames[number] * model.bodies[number].inertia.com;
@@ -54,11 +54,11 @@ double bearable_mass(const RobotModel& model, std::size_t number, std::span<cons
   return mass;
 }
 
-/// A body that touches others carries some of the robot: engines with iterations would need too many of them, and soft
-/// contacts give way without end, where it is as light as the least mass that they take. Without a mass it is a ball
-/// about its shapes with a thousandth of the robot's mass, with one at least such a ball with a share that contacts of
-/// all engines still hold (a leg of a robot sinks in from 1e-5 of its mass on); but no more is added than the joints
-/// that carry it bear.
+/// Raises the least inertia of a body that touches others, because it carries part of the robot. If it has only the
+/// least mass of the engine, iterative engines need too many iterations, and soft contacts give way without end. A body
+/// without mass becomes a ball about its shapes with a thousandth of the robot's mass. A body with mass becomes at
+/// least such a ball with a share that contacts of all engines hold (a leg sinks in when its share is 1e-5 or less). No
+/// more is added than the joints that carry the body can hold.
 MinInertia least_inertia_of(const RobotModel& model, std::size_t number, std::span<const Pose> frames,
                             const MinInertia& of_engine) {
   constexpr double share_without_mass = 1e-3, least_share = 5e-5;
@@ -75,7 +75,7 @@ MinInertia least_inertia_of(const RobotModel& model, std::size_t number, std::sp
   return {std::max(share, of_engine.mass_fraction), radius};
 }
 
-/// Whether the inertia lacked something that contacts need.
+/// Adds the inertia that contacts need. Returns whether some was missing.
 bool complete_inertia(RigidBody& body, const MinInertia& min_inertia) {
   if (!min_inertia.box_of) return false;
   Aabb box;
@@ -97,7 +97,7 @@ RigidBody body_of(const Link& link, std::uint32_t number, DriveMode mode) {
   return body;
 }
 
-/// Finds the bodies and where links are in them; returns the placement of each link.
+/// Finds the bodies. Returns the placement of each link in its body.
 std::vector<LinkPlacement> add_bodies(RobotModel& model, const RobotView& robot, std::span<const DriveMode> modes,
                                       std::span<const double> initial_positions) {
   std::vector<LinkPlacement> placements(robot.links.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a multi-body engine is for a scene: the interface between the motions by engines and what they share.
+// The interface of a multi-body engine to a scene: between the motions by engines and their common part.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace muro::multibody {
 
-/// A failure of an engine that tells the robot.
+/// A failure of an engine that names the robot.
 class RobotFailure : public Error {
  public:
   RobotFailure(const std::string& text, const RobotState& robot) : Error(text), robot_(&robot) {}
@@ -21,20 +21,20 @@ class RobotFailure : public Error {
 
 /// A body that the world does not move: scenery, or a body of a robot that another motion moves.
 struct ExternalBody {
-  std::string name;  ///< the body and its name stay where they are
+  std::string name;  ///< the body and its name keep their addresses
   std::vector<BodyShape> shapes;
-  Pose pose;  ///< of scenery
+  Pose pose;  ///< pose of scenery
 };
 
-/// State of an external body that may move, in.
+/// State of an external body that may move; input.
 struct ExternalBodyState {
   MotionType motion_type = MotionType::kinematic;  ///< or disabled
   Pose pose;
   Twist twist;
 };
 
-/// One world of an engine. Built anew whenever a run starts or goes on from a snapshot: what it does follows from the
-/// states that it is given alone, from RobotState::memory too.
+/// One world of an engine. It is built anew whenever a run starts or continues from a snapshot. So its results depend
+/// only on the given states, including RobotState::memory.
 class World {
  public:
   World() = default;
@@ -42,16 +42,16 @@ class World {
   World& operator=(const World&) = delete;
   virtual ~World() = default;
 
-  /// Scenery.
+  /// Adds scenery.
   virtual void add_static_body(const ExternalBody& body) = 0;
-  /// `state` stays where it is and is read in each step.
+  /// Adds an external body that may move. `state` keeps its address and is read in each step.
   virtual void add_kinematic_body(const ExternalBody& body, const ExternalBodyState& state) = 0;
-  /// `model` and `state` stay where they are; the state is read and written in each step.
+  /// Adds a robot. `model` and `state` keep their addresses; the state is read and written in each step.
   virtual void add_robot(const RobotModel& model, RobotState& state) = 0;
-  /// Everything has been added; states hold the start.
+  /// Completes the world when everything has been added and states hold the start.
   virtual void complete() = 0;
-  /// Carries all dynamic robots on by `dt` (s). Throws Error with the engine's words when it fails; it is not used
-  /// again then.
+  /// Moves all dynamic robots by `dt` (s). Throws Error with the engine's message when it fails; the world is not used
+  /// again after that.
   virtual void advance(double dt) = 0;
 };
 

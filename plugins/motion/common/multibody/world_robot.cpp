@@ -61,7 +61,7 @@ void WorldRobot::connect_joints(Connector& c, const RobotView& view, const Param
   }
 }
 
-/// When it is known what algorithms command.
+/// Connects the drives, when it is known which targets algorithms write.
 void WorldRobot::connect_drives(Connector& c, const RobotView& view, const Parameters& p) {
   const std::vector<DriveMode> modes = settled_modes(c, view, p);
   const std::vector<PositionDrive> drives = position_drives_of(c, view, modes, p);
@@ -121,7 +121,7 @@ void WorldRobot::connect_links(Connector& c, const RobotView& view) {
   }
 }
 
-/// One state block holds the last state, what the engine keeps, and what interpolated targets keep.
+/// Allocates one state block for the last state, the memory of the engine, and the memory of interpolated targets.
 void WorldRobot::connect_memory(Connector& c, const RobotView& view, std::string_view motion,
                                 std::size_t engine_memory) {
   const std::size_t last = LastState::size_for(model_.bodies.size());
@@ -180,7 +180,7 @@ void WorldRobot::import() {
   import_wrenches();
 }
 
-/// Another motion has taken the robot over, which does not write them.
+/// Clears the outputs that another motion, which has taken over the robot, does not write.
 void WorldRobot::clear_outputs() const {
   for (const LinkWrenches& w : wrenches_) {
     if (w.contact) *w.contact = Wrench{};
@@ -292,7 +292,7 @@ double WorldRobot::wildness() const {
   return std::max(std::sqrt(square / watch_.allowed_square(s.pose.position)), s.overlap.depth / watch_.depth());
 }
 
-/// Which limit of the watch the present state passes.
+/// Describes the limit of the watch that the present state exceeds.
 std::string WorldRobot::broken_limit() const {
   const RobotState& s = state_;
   if (!watch_.allows_depth(s.overlap.depth))
@@ -359,7 +359,8 @@ void WorldRobot::export_contacts() {
   }
 }
 
-/// Of a loaded link: what acts at the origin of its body, at its own. `has_body_states`: they are those of this step.
+/// Moves a wrench from the origin of a loaded link's body to the origin of the link. `has_body_states`: whether the
+/// body states are those of this step.
 Wrench WorldRobot::at_link(std::size_t number, const Wrench& at_body, bool& has_body_states) {
   Wrench w = at_body;
   const LinkPlacement& placement = model_.loaded_links[number].placement;

@@ -12,27 +12,29 @@
 
 namespace muro::multibody {
 
-/// A robot of a world: its model and state, and the properties that the state is imported from and exported to.
+/// A robot of a world: its model, its state, and the properties from which the state is imported and to which it is
+/// exported.
 class WorldRobot {
  public:
-  /// What all robots of a world have in common.
+  /// Values that all robots of a world have in common.
   struct WorldTraits {
     std::string_view motion;          ///< id of the algorithm
     std::uint64_t contact_world = 0;  ///< see keys::contact_world
     double twist_lag = 0;             ///< see keys::twist_lag
-    bool couples_mimics = true;       ///< constraints of the engine hold mimic joints to their leaders
-    std::string_view advice;          ///< what to try when forces grow
+    bool couples_mimics = true;       ///< constraints of the engine couple mimic joints to their leaders
+    std::string_view advice;          ///< advice for a user when forces grow
   };
 
   WorldRobot(RobotModel model, std::uint32_t level);
 
-  /// `engine_memory`: how many numbers the engine keeps of the robot. [setup]
+  /// Connects the robot to its properties. `engine_memory`: number of values that the engine keeps for the robot.
+  /// [setup]
   void connect(Connector& c, const RobotView& view, const Parameters& p, const WorldTraits& traits,
                std::size_t engine_memory);
-  /// Finds out what joints follow whose mode is open, whether velocities of joints in mode position are commanded, what
-  /// drives bring with them, and what is read of contacts. [setup]
+  /// Finds the mode of joints in mode auto, whether velocities of joints in mode position are commanded, friction and
+  /// armature of drives, and which contact results are read. [setup]
   void connect_by_name(Connector& c, const RobotView& view, const Parameters& p);
-  /// Whether one of those that add to its external wrenches is the contact algorithm. [setup]
+  /// Sets whether the contact algorithm adds to the external wrenches of the robot. [setup]
   void set_has_contact_law(bool has) { has_contact_law_ = has; }
 
   const RobotModel& model() const { return model_; }
@@ -40,23 +42,24 @@ class WorldRobot {
   const RobotState& state() const { return state_; }
   bool is_dynamic() const { return state_.motion_type == MotionType::dynamic; }
 
-  /// The run begins or goes on from where the robot is at the next import. [setup]
+  /// Restarts the watch: the run begins or continues from the robot's state at the next import. [setup]
   void begin_watch();
   /// The world moves the robot from now on.
   void take_over();
   /// Properties to state. Throws Error when they are not those of a body.
   void import();
-  /// Sets what drives are to do in a step of the engine of `dt` (s). `gain_of_mimics`: 1/s. Throws Error for targets
-  /// that are not finite.
+  /// Sets the tasks of drives in a step of the engine of `dt` (s). `gain_of_mimics`: 1/s. Throws Error for targets that
+  /// are not finite.
   void set_drive_targets(const WorldTraits& traits, double dt, double gain_of_mimics);
-  /// When the engine has made one of `count` steps of this step of the motion: what contacts have done in it.
+  /// Adds the contact results after one of `count` steps of the engine within this step of the motion.
   void add_contacts(int count);
-  /// State to properties. Throws Error when it passes the limits of the watch.
+  /// Copies the state to properties. Throws Error when it exceeds the limits of the watch.
   void export_state();
 
-  /// How near its motion is to the limits of the watch; above 1 beyond them, infinite when it is not finite.
+  /// Returns the ratio of its motion to the limits of the watch: above 1 beyond them, infinite when the motion is not
+  /// finite.
   double wildness() const;
-  /// A message on a failure of the engine: with the name of the robot, what it did last and what to try.
+  /// Returns a message on a failure of the engine: the name of the robot, its last motion, and advice.
   std::string failure_text(const std::string& failure) const;
 
  private:
@@ -69,13 +72,13 @@ class WorldRobot {
     ObjectId object = no_object;
     double reach_square = 0;  ///< m^2, see watch::Reach; 1 for a joint that shifts
   };
-  /// Of a loaded link.
+  /// Wrenches on a loaded link.
   struct LinkWrenches {
     SumIn<Wrench> external;
-    Out<Wrench> contact;  ///< by contacts in the own world; none without shapes
-    Out<Wrench> applied;  ///< where somebody reads it
+    Out<Wrench> contact;  ///< by contacts in this world; none without shapes
+    Out<Wrench> applied;  ///< when something reads it
     Wrench used;          ///< `external` of this step
-    Wrench mean_contact;  ///< of the steps of the engine so far, as RobotState::contact; where `applied` is read
+    Wrench mean_contact;  ///< mean over the engine's steps so far, see RobotState::contact; when `applied` is read
   };
 
   void connect_joints(Connector& c, const RobotView& view, const Parameters& p, const watch::Reach& reach);
@@ -95,8 +98,8 @@ class WorldRobot {
   RobotModel model_;
   RobotState state_;
   watch::Watch watch_;
-  bool watch_begins_ = true;      ///< with the present step
-  bool has_contact_law_ = false;  ///< adds to external wrenches
+  bool watch_begins_ = true;      ///< the watch begins with the present step
+  bool has_contact_law_ = false;  ///< the contact algorithm adds to external wrenches
   std::string_view advice_;
   std::uint32_t level_;  ///< the motion.level at which this world moves the robot
   In<std::uint32_t> active_level_;
@@ -104,13 +107,13 @@ class WorldRobot {
   Out<Pose> pose_;
   Out<Twist> twist_;
   std::vector<Joint> joints_;                                    ///< one per body
-  MovedInertias moved_inertias_;                                 ///< where some joint follows positions
-  bool has_position_drives_ = false, has_speed_limits_ = false;  ///< the latter of joints that efforts drive
-  std::vector<double> positions_;                                ///< of joints, one per body
+  MovedInertias moved_inertias_;                                 ///< when some joint follows positions
+  bool has_position_drives_ = false, has_speed_limits_ = false;  ///< speed limits: of joints in mode effort
+  std::vector<double> positions_;                                ///< joint positions, one per body
   ListOut<ContactWrench> contacts_;
   std::vector<LinkWrenches> wrenches_;                 ///< one per loaded link
   bool tells_applied_ = false;                         ///< `applied` of some of them is read
-  std::vector<std::string> joint_names_, link_names_;  ///< the same; for messages
+  std::vector<std::string> joint_names_, link_names_;  ///< same order; for messages
   LastState last_;
   std::vector<BodyState> body_states_;  ///< scratch
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where joints carry bodies, as matrices: for who needs places and inertias of all bodies of a robot in each step.
+// Frames of bodies as matrices, for code that needs places and inertias of all bodies of a robot in each step.
 #pragma once
 
 #include "muro/robot.hpp"
@@ -8,7 +8,7 @@
 
 namespace muro {
 
-/// Where a body is, in the frame of the base.
+/// Pose of a body in the frame of the base.
 struct BodyFrame {
   lane::M3<double> axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   lane::V3<double> origin{0, 0, 0};  ///< m
@@ -16,7 +16,7 @@ struct BodyFrame {
   MURO_INLINE lane::V3<double> at(const lane::V3<double>& point) const { return origin + axes * point; }
 };
 
-/// How a joint places the body behind it.
+/// Computes the place of the body that a joint moves.
 class JointFrame {
  public:
   JointFrame() = default;
@@ -28,7 +28,8 @@ class JointFrame {
         axis_(plain(link.axis)) {}
 
   JointKind kind() const { return kind_; }
-  /// `parent`: of the body that it hangs on; `position`: rad or m; `axis`: out, of the joint, in the frame of the base.
+  /// Places the body. `parent`: frame of the parent body; `position`: rad or m; `axis`: out, axis of the joint in the
+  /// frame of the base.
   MURO_INLINE BodyFrame place(const BodyFrame& parent, double position, lane::V3<double>& axis) const {
     BodyFrame f{is_turned_ ? parent.axes * turn_ : parent.axes, parent.at(offset_)};
     axis = f.axes * axis_;
@@ -40,7 +41,7 @@ class JointFrame {
   }
 
  private:
-  /// About the axis (Rodrigues).
+  /// Rotation about the axis (Rodrigues).
   MURO_INLINE lane::M3<double> rotation(double angle) const {
     const auto [c, s] = lane::turn_by(angle);
     const lane::V3<double>&a = axis_, b = (1 - c) * a, d = s * a;
@@ -55,7 +56,7 @@ class JointFrame {
   lane::V3<double> offset_{}, axis_{};
 };
 
-/// A tensor whose axes are turned by `axes`.
+/// Returns `tensor` with its axes turned by `axes`.
 MURO_INLINE lane::M3<double> turned_by(const lane::M3<double>& axes, const lane::M3<double>& tensor) {
   const lane::M3<double> t = axes * tensor;
   return {t.x * axes.x.x + t.y * axes.y.x + t.z * axes.z.x, t.x * axes.x.y + t.y * axes.y.y + t.z * axes.z.y,

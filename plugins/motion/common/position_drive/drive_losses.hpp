@@ -6,11 +6,11 @@
 
 namespace muro {
 
-/// Friction and rotor of the drive in front of a joint that efforts drive; 0 where nothing writes them.
+/// Friction and rotor inertia of the drive of a joint in mode effort; 0 when nothing writes them.
 struct DriveLosses {
   In<double> friction_input, armature_input;
 
-  /// Finds out what is written. [setup]
+  /// Connects the values that something writes. [setup]
   void connect_by_name(Connector& c, ObjectId joint) {
     if (is_commanded(c, joint, keys::joint_drive_friction)) friction_input = c.read(joint, keys::joint_drive_friction);
     if (is_commanded(c, joint, keys::joint_drive_armature)) armature_input = c.read(joint, keys::joint_drive_armature);

@@ -5,7 +5,8 @@
 
 namespace muro {
 
-/// The target that a joint follows in this mode; none for passive joints. `position`: rad or m, at the start. [setup]
+/// Connects the target that a joint follows in this mode; empty for passive joints. `position`: rad or m, at the start.
+/// [setup]
 inline In<double> connect_joint_target(Connector& c, ObjectId joint, DriveMode mode, double position) {
   switch (mode) {
     case DriveMode::velocity:

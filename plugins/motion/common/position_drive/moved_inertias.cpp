@@ -43,7 +43,7 @@ double MovedInertias::along(std::size_t body, const Composite& c) const {
   const TreeBody& b = bodies_[body];
   if (b.joint.kind() == JointKind::prismatic) return std::max(c.mass, 0.0);
   if (b.joint.kind() == JointKind::fixed) return 0;
-  // about a parallel axis through a point p: the sum of m |a x (r - p)|^2
+  // inertia about a parallel axis through a point p: the sum of m |a x (r - p)|^2
   const Vector &axis = b.placed.axis, &joint = b.placed.frame.origin, arm = joint - dot(axis, joint) * axis;
   return std::max(dot(axis, c.second_moment * axis) - 2 * dot(arm, c.first_moment) + c.mass * dot(arm, arm), 0.0);
 }

@@ -10,14 +10,15 @@
 
 namespace muro {
 
-/// Of each joint, as if all others were locked: of what hangs on it (the diagonal of the joint-space inertia matrix:
-/// Featherstone, Rigid Body Dynamics Algorithms, 6.2), and of the rest of the robot, which a free base lets move.
+/// Inertias that each joint moves, as if all other joints were locked: the inertia of the bodies behind it (the
+/// diagonal of the joint-space inertia matrix: Featherstone, Rigid Body Dynamics Algorithms, 6.2), and of the rest of
+/// the robot, which moves when the base is free.
 class MovedInertias {
  public:
   using Vector = lane::V3<double>;
   using Matrix = lane::M3<double>;
 
-  /// A link, or several that are one body, with the joint that leads to it.
+  /// A link, or several links that are one body, with the joint that moves it.
   struct Body {
     Link link;        ///< `parent`: number of a body that comes before it; -1: this is the base
     Inertia inertia;  ///< in the body's frame
@@ -25,19 +26,19 @@ class MovedInertias {
   MovedInertias() = default;
   MovedInertias(std::span<const Body> bodies, bool fixed_base);
 
-  /// `positions`: of the joint of each body, rad or m. Does not allocate.
+  /// Finds all inertias. `positions`: position of each body's joint, rad or m. Does not allocate.
   void update(std::span<const double> positions);
 
-  /// Where a body is; in the frame of the base.
+  /// The place of a body in the frame of the base.
   struct Placed {
     BodyFrame frame;
-    Vector axis{};    ///< unit, of its joint, which the origin of its frame is on
-    Vector centre{};  ///< m, of mass
+    Vector axis{};    ///< unit: axis of its joint, through the origin of its frame
+    Vector centre{};  ///< m, centre of mass
     Matrix tensor{};  ///< kg m^2, about the centre
   };
   const Placed& placed(std::size_t body) const { return bodies_[body].placed; }
 
-  /// A body with all that hangs on it.
+  /// A body with all bodies behind it.
   struct Composite {
     double mass = 0;
     Vector first_moment{};   ///< kg m, about the base's origin
@@ -45,17 +46,18 @@ class MovedInertias {
   };
   const Composite& composite(std::size_t body) const { return bodies_[body].composite; }
 
-  /// kg m^2 or kg: of what hangs on a joint.
+  /// kg m^2 or kg: inertia of all bodies behind a joint.
   double behind(std::size_t body) const { return along(body, composite(body)); }
-  /// kg m^2 or kg: the larger one, with the armature. A foot on the ground does not move: its joint moves the robot.
+  /// kg m^2 or kg: the larger of both sides, with the armature. A foot on the ground does not move: its joint moves the
+  /// robot.
   double driven(std::size_t body) const;
-  /// kg m^2 or kg: of the joint in free motion, by both sides together, with the armature.
+  /// kg m^2 or kg: inertia of the joint in free motion, from both sides together, with the armature.
   double free(std::size_t body) const;
 
  private:
-  /// About, or along, the axis of the joint of a body.
+  /// Inertia about (or along) the axis of a body's joint.
   double along(std::size_t body, const Composite& composite) const;
-  /// All but what hangs on a joint.
+  /// Inertia of all bodies that are not behind a joint.
   double before(std::size_t body) const;
 
   struct TreeBody {
@@ -64,7 +66,7 @@ class MovedInertias {
     double armature = 0;  ///< kg m^2 or kg
     double mass = 0;      ///< kg
     Vector com{};         ///< m, in the body's frame
-    Matrix tensor{};      ///< kg m^2, the same
+    Matrix tensor{};      ///< kg m^2, in the body's frame
     Placed placed;
     Composite composite;
   };

@@ -10,7 +10,7 @@ namespace muro {
 
 namespace {
 
-/// "joint=value", or "value", which is for all joints.
+/// A gain from "joint=value", or from "value" for all joints.
 struct GivenGain {
   std::string_view joints = "*";
   double value = 0;

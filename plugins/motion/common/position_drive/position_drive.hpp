@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drives that follow positions: PD controllers at the joints, in step with the motion.
+// Drives that follow positions: PD controllers at the joints that run in each step of the motion.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace muro {
 
-// Parameters of a motion with such drives.
+// Parameters of a motion with position drives.
 inline constexpr Parameter natural_frequency =
     real("natural_frequency", "rad/s", 100,
          "of position drives with neither stiffness nor damping given: both follow from the inertia that the joint "
@@ -34,34 +34,35 @@ struct PdGains {
   double damping = 0;    ///< N m s/rad or N s/m
 };
 
-/// How the drive of a joint follows positions.
+/// Settings of a drive that follows positions.
 struct PositionDrive {
   double natural_frequency = 100;                ///< rad/s
-  std::optional<double> stiffness{}, damping{};  ///< those that are given
-  double interpolation = 0;                      ///< s, in which a target moves to a new value
+  std::optional<double> stiffness{}, damping{};  ///< when given
+  double interpolation = 0;                      ///< s, time in which a target moves to a new value
 
   bool needs_inertia() const { return !stiffness || !damping; }
-  /// What is not given makes a critically damped oscillator with `inertia` (kg m^2 or kg).
+  /// Returns the gains. A gain that is not given is chosen so that the joint is a critically damped oscillator with
+  /// `inertia` (kg m^2 or kg).
   PdGains gains(double inertia) const;
 };
 
-/// A PD drive within a step, as a damper of `damping` (N m s/rad or N s/m) that pulls to `velocity` (rad/s or m/s).
+/// A PD drive within a step, as a damper with `damping` (N m s/rad or N s/m) that pulls to `velocity` (rad/s or m/s).
 struct ImplicitDrive {
   double velocity = 0;
   double damping = 0;
 
-  /// N m or N, when the joint has this velocity at the end of the step.
+  /// Returns the effort (N m or N) when the joint has this velocity at the end of the step.
   double effort(double end_velocity) const { return damping * (velocity - end_velocity); }
 };
 
-/// The drive's effort with position and velocity of the end of the step, q' = q + v' dt, which no gains make unstable:
+/// Returns the drive with the effort from position and velocity at the end of the step, q' = q + v' dt. It is stable
+/// for all gains:
 ///     stiffness (target - q - v' dt) + damping (target velocity - v').
-/// In terms of a constraint that is ERP = dt kp / (dt kp + kd) and CFM = 1 / (dt kp + kd) (ODE manual, 3.8).
-/// `error`: target - q.
+/// As a constraint it has ERP = dt kp / (dt kp + kd) and CFM = 1 / (dt kp + kd) (ODE manual, 3.8). `error`: target - q.
 ImplicitDrive implicit_drive(const PdGains& gains, double error, double target_velocity, double dt);
 
-/// One per link; those of joints in other modes than `position` do not count. Throws Error for names of no joint and
-/// for values that are no numbers from 0 on. [setup]
+/// Returns one drive per link; only those of joints in mode `position` count. Throws Error for names that match no
+/// joint and for values that are not numbers >= 0. [setup]
 std::vector<PositionDrive> position_drives_of(const Connector& connector, const RobotView& robot,
                                               std::span<const DriveMode> modes, const Parameters& p);
 

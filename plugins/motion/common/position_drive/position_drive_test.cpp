@@ -20,7 +20,7 @@ TEST(PositionDrive, IsCriticallyDampedByTheInertiaThatItMoves) {
   EXPECT_EQ(given.damping, 0);
 }
 
-/// x after `time` of a mass of 0.2 that such a drive pulls from 1 to 0, and its largest speed.
+/// Returns x after `time` for a mass of 0.2 that such a drive pulls from 1 to 0, and its largest speed.
 double pulled(const PdGains& gains, double time, double dt, double* fastest = nullptr) {
   double x = 1, v = 0;
   for (double t = 0; t < time - 0.5 * dt; t += dt) {

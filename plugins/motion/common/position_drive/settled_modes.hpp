@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What joints follow of which the scenario says nothing: `joints: auto`.
+// Targets of joints for which the scenario sets no mode: `joints: auto`.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 
 namespace muro {
 
-/// The mode of every link's joint when all algorithms have connected. A joint that the scenario leaves open follows
-/// what an algorithm writes: its position, else its velocity. Where neither is written it turns freely, as long as
-/// algorithms command other joints of the robot; else nobody knows who does, a program outside may, and it follows its
-/// velocity. [setup, in connect_by_name]
+/// Returns the mode of every link's joint when all algorithms have connected. A joint in mode auto follows the target
+/// that an algorithm writes: position, else velocity. When neither is written, the joint is passive if algorithms
+/// command other joints of the robot. Otherwise a program outside may write targets, and the joint follows its velocity
+/// target. [setup, in connect_by_name]
 inline std::vector<DriveMode> settled_modes(const Connector& c, const RobotView& robot, const Parameters& p) {
   std::vector<bool> is_open;
   std::vector<DriveMode> modes = drive_modes_of(c, robot, p, &is_open);

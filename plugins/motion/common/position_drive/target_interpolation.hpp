@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Targets that a controller gives at its own rate, made even for steps of a motion.
+// Interpolates the targets that a controller gives at its own rate for the steps of a motion.
 #pragma once
 
 #include <cmath>
@@ -7,15 +7,15 @@
 
 namespace muro {
 
-/// Where a drive is to be at the end of a step.
+/// Wanted state of a joint at the end of a step.
 struct Reference {
   double position = 0;  ///< rad or m
   double velocity = 0;  ///< rad/s or m/s, within the step
 };
 
-/// Moves evenly from where it is to each new target in `period` (s): for a controller of that period, targets of
-/// constant speed become a motion of constant speed, a period later. It keeps `numbers` in a state block, all 0 before
-/// the first step; it begins at the joint's position.
+/// Moves evenly from its present value to each new target within `period` (s). If the controller has that period,
+/// targets of constant speed become a motion of constant speed, one period later. It keeps `numbers` values in a state
+/// block, all 0 before the first step, and begins at the joint's position.
 class TargetInterpolation {
  public:
   static constexpr std::size_t numbers = 4;
@@ -23,11 +23,11 @@ class TargetInterpolation {
   TargetInterpolation() = default;
   explicit TargetInterpolation(std::span<double> memory) : memory_(memory) {}
 
-  /// Begins anew with the next step.
+  /// Starts anew with the next step.
   void invalidate() const {
     if (!memory_.empty()) memory_[is_valid] = 0;
   }
-  /// Carries it on by `dt` (s). `position`: of the joint.
+  /// Advances it by `dt` (s). `position`: position of the joint.
   Reference advance(double target, double position, double period, double dt) const {
     double &at = memory_[reference], &to = memory_[goal], &time = memory_[remaining];
     if (memory_[is_valid] == 0) {
@@ -38,7 +38,7 @@ class TargetInterpolation {
       to = target;
       time = period;
     }
-    // A period is a whole number of steps but for round-off, of which nothing may remain for a step of its own.
+    // A period is a whole number of steps up to round-off. Round-off must not make one more step.
     const double from = at, part = time > dt * (1 + 1e-6) ? dt / time : 1;
     at = part < 1 ? from + (to - from) * part : to;
     time = part < 1 ? time - dt : 0;

@@ -14,7 +14,7 @@ TEST(TargetInterpolation, MakesARampOfAStaircaseOnePeriodLater) {
   for (int k = 0; k < 200; ++k) {
     if (k % 10 == 0) target = speed * (0.001 * k);
     const Reference r = interpolation.advance(target, 0, period, step);
-    if (k < 10) continue;  // the first target is where the joint is
+    if (k < 10) continue;  // the first target is the position of the joint
     ASSERT_NEAR(r.position, speed * (step * (k + 1) - period), 1e-12) << k;
     ASSERT_NEAR(r.velocity, speed, 1e-9) << k;
   }

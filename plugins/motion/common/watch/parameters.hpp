@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parameters of the watch, the same for all motions by forces.
+// Parameters of the watch, equal for all motions by forces.
 #pragma once
 
 #include <string_view>

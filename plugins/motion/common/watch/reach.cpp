@@ -14,9 +14,9 @@ namespace {
 
 constexpr double unlimited_turn_rate = 100, unlimited_speed = 10;  ///< rad/s, m/s
 constexpr double no_limit = 1e4;                                   ///< rad/s, m/s: models write 1e16 and the like
-constexpr double longest_slide = 10;                               ///< m: what is longer has hardly a limit
+constexpr double longest_slide = 10;                               ///< m: a longer slide counts as one without a limit
 
-/// m: of a ball with this mass and inertia, or of one of air with this mass: of two radii the smaller, for model files
+/// m: the smaller of two radii: of a ball with this mass and inertia, and of a ball of air with this mass. Model files
 /// hold inertias of 1 kg m^2 for a gram.
 double radius_of(const Inertia& inertia) {
   constexpr double air = 1.2;  // kg/m^3
@@ -36,7 +36,7 @@ double own_reach(const Connector& c, ObjectId link) {
   return reach;
 }
 
-/// m: how far the joint shifts what it carries.
+/// m: largest distance by which the joint shifts the links that it carries.
 double travel_of(const Link& link) {
   if (link.joint != JointKind::prismatic) return 0;
   const double most = std::max(std::abs(link.limits.lower), std::abs(link.limits.upper));
@@ -61,7 +61,7 @@ Reach reach_of(const Connector& c, const RobotView& robot) {
     double& parent = reach.of_link[std::size_t(link.parent)];
     parent = std::max(parent, link.origin.position.norm() + travel_of(link) + reach.of_link[i]);
   }
-  std::vector<double> speeds(n);  // of a link, by all joints before it
+  std::vector<double> speeds(n);  // speed of each link by all joints before it
   for (std::size_t i = 1; i < n; ++i) {
     const Link& link = robot.links[i];
     speeds[i] = speeds[std::size_t(link.parent)] + joint_speed(link, reach.of_link[i]);

@@ -7,16 +7,16 @@
 
 namespace muro::watch {
 
-/// How far a robot reaches, and how fast its drives can make it: bounds for all positions of its joints.
+/// Upper bounds of the size of a robot and of the speed that its drives can give it, for all positions of its joints.
 struct Reach {
-  /// Of each link, m: from its frame to the farthest point of it and of the links that it carries.
+  /// m, for each link: distance from its frame to the farthest point of the link and of the links that it carries.
   std::vector<double> of_link;
-  /// m/s, from the base: of the fastest point, by the limits of the joints.
+  /// m/s, relative to the base: speed of the fastest point by the limits of the joints.
   double drive_speed = 0;
 };
 
-/// From the constants of the robot. A joint without a limit counts with 100 rad/s or 10 m/s and no travel, a mesh,
-/// whose file is not read here, by the inertia of its link. [setup]
+/// Computes the reach from the constants of the robot. A joint without limits counts with 100 rad/s or 10 m/s and no
+/// travel. Mesh files are not read: the size of a mesh follows from the inertia of its link. [setup]
 Reach reach_of(const Connector& c, const RobotView& robot);
 
 }  // namespace muro::watch

@@ -6,18 +6,18 @@
 
 namespace muro::watch {
 
-/// How deep a robot stands in what carries it. Contacts that are too soft for what they bear let it sink and stay
-/// there: no failure, but not what rigid bodies do.
+/// Finds robots that stand too deep in the body that carries them. Contacts that are too soft for their load let a
+/// robot sink in and stay there. This is no failure, but rigid bodies do not do it.
 class RestingDepth {
  public:
-  /// Finds nothing too deep.
+  /// Never finds a robot too deep.
   RestingDepth() = default;
-  /// `size`: m, from its base to its farthest point.
+  /// `size`: m, from the robot's base to its farthest point.
   explicit RestingDepth(double size) : most_(std::max(least, relative * size)) {}
 
-  /// What it has seen was another run, or another motion's work.
+  /// Starts anew: earlier depths belong to another run or another motion.
   void begin() { since_ = never; }
-  /// Its deepest contact is `depth` (m) deep at `time` (s). Whether it has been too deep for half a second.
+  /// Takes the depth (m) of the deepest contact at `time` (s). Returns whether it has been too deep for half a second.
   bool sees(double time, double depth) {
     if (!(depth > most_) || time < since_) since_ = time;
     return time - since_ >= lasting;
@@ -25,7 +25,7 @@ class RestingDepth {
 
  private:
   static constexpr double least = 1e-3;     ///< m
-  static constexpr double relative = 2e-3;  ///< of its size
+  static constexpr double relative = 2e-3;  ///< part of its size
   static constexpr double lasting = 0.5;    ///< s: an impact is over sooner
 
   static constexpr double never = std::numeric_limits<double>::infinity();

@@ -12,9 +12,9 @@
 namespace muro::watch {
 namespace {
 
-/// m, from which on an overlap is told as a likely cause.
+/// m: deeper overlaps are named as a likely cause.
 constexpr double told_depth = 0.01;
-/// m/s^2, from which on an external force is told as a likely cause.
+/// m/s^2: larger external forces per mass are named as a likely cause.
 constexpr double told_push = 1e4;
 
 constexpr const char* growing_forces =
@@ -33,7 +33,7 @@ std::string millimetres(double depth) {
   return text;
 }
 
-/// The base, and what is fixed to it.
+/// Returns the base and the links that are fixed to it.
 std::vector<ObjectId> bodies_of_base(const RobotView& robot) {
   std::vector<ObjectId> bodies;
   std::vector<bool> is_fixed;
@@ -96,7 +96,7 @@ RobotWatch::Overlap RobotWatch::deepest_overlap(const Surroundings& surroundings
   Overlap deepest;
   if (!contacts_) return deepest;
   for (const Contact& c : *contacts_) {
-    // what is neither too deep nor told as a cause needs no name
+    // an overlap that is neither too deep nor named as a cause needs no name
     if (!(c.depth > deepest.depth) || (!begins_ && c.depth <= told_depth && watch_.allows_depth(c.depth))) continue;
     const auto obstacle = surroundings.obstacles.find(index_of(c.other));
     if (obstacle != surroundings.obstacles.end() && obstacle->second.is_scenery)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The watch over robots of motions whose contacts a collision algorithm finds: as motions by engines have it.
+// The watch over robots of motions whose contacts a collision algorithm finds. It does the same as the watch of motions
+// by engines.
 #pragma once
 
 #include <atomic>
@@ -16,7 +17,7 @@
 
 namespace muro::watch {
 
-/// What the watches over the robots of a motion share: what these can touch, by object, and what has been told.
+/// Data that the watches of a motion's robots share: the objects that robots can touch, and what has been reported.
 struct Surroundings {
   struct Obstacle {
     std::string name;
@@ -30,29 +31,31 @@ struct Surroundings {
   void connect(const Connector& c);
 };
 
-/// Why a run ends in which the numbers of a robot are no longer those of bodies: its pose, twist or joints are not.
-/// `external`: the sum of the wrenches on it, `mass`: kg.
+/// Returns the reason to end a run in which the pose, twist or joints of a robot are no longer possible for a body.
+/// `external`: sum of the wrenches on the robot; `mass`: kg.
 std::string failure_of_numbers(std::string_view robot, const Pose& pose, const Twist& twist, const Wrench& external,
                                double mass);
 
-/// The watch over one robot. Looks at it each `interval` steps: what comes apart stays so.
+/// The watch over one robot. It checks the robot every `interval` steps: an unstable robot does not recover.
 class RobotWatch {
  public:
   static constexpr std::uint64_t interval = 16;
 
-  /// `velocities`: of the joints, one per link (rad/s or m/s); null for those that no force moves. [setup]
+  /// `velocities`: joint velocities, one per link (rad/s or m/s); null for joints that no force moves. [setup]
   RobotWatch(Connector& c, const RobotView& robot, std::span<const double* const> velocities);
-  /// Finds out whether there is a contact algorithm, and looks at contacts where somebody does. [setup]
+  /// Finds out whether there is a contact algorithm. Reads contacts when another algorithm reads them. [setup]
   void connect_contacts(Connector& c);
-  /// The run begins or goes on; `external`: what adds to the robot's wrench, null where nothing moves its base. [setup]
+  /// Starts the watch when a run begins or continues. `external`: contributions to the robot's wrench; null when
+  /// nothing moves its base. [setup]
   void begin(const SumIn<Wrench>* external);
-  /// Throws Error, which says why the run ends. Says, once for all robots of the motion, that it stands too deep.
+  /// Throws Error with the reason when the run must end. Logs a robot that stands too deep, once for all robots of the
+  /// motion.
   void look(const Step& step, const Pose& pose, const Twist& twist, Surroundings& surroundings);
 
  private:
   struct Joint {
     const double* velocity;
-    double reach_square;  ///< m^2, see Reach; 1 for a joint that shifts
+    double reach_square;  ///< m^2, see Reach; 1 for a prismatic joint
     std::string name;
   };
   struct Overlap {
@@ -73,7 +76,7 @@ class RobotWatch {
   bool begins_ = true;
   bool has_contact_law_ = false;
   ListIn<Contact> contacts_;
-  std::vector<Joint> joints_;  ///< those that forces drive
+  std::vector<Joint> joints_;  ///< joints that forces drive
 };
 
 }  // namespace muro::watch

@@ -12,11 +12,11 @@ namespace muro::watch {
 
 namespace {
 
-constexpr double least_speed = 100;     ///< m/s: of the limit that is found
-constexpr double pushed_speed = 1e4;    ///< m/s: of robots that something pushes
-constexpr double least_depth = 0.1;     ///< m: likewise
-constexpr double speed_factor = 2;      ///< of what drives and start explain
-constexpr double overlap_factor = 1.5;  ///< of an overlap at the start
+constexpr double least_speed = 100;     ///< m/s: smallest speed limit when none is given
+constexpr double pushed_speed = 1e4;    ///< m/s: smallest speed limit of robots that something pushes
+constexpr double least_depth = 0.1;     ///< m: smallest depth limit when none is given
+constexpr double speed_factor = 2;      ///< times the speed that drives and start explain
+constexpr double overlap_factor = 1.5;  ///< times the overlap at the start
 
 std::string text(double x) {
   char buffer[32];
