@@ -61,7 +61,7 @@ struct AckermannRobot {
 
 class Ackermann final : public Motion<PerRobotAlgorithm<AckermannRobot>> {
  public:
-  /// The wheels turn as fits the base's velocity best; the steering goes on from where it stands.
+  /// Sets wheel speeds that fit the base's velocity best; the steering continues from its present angles.
   void on_handover(std::uint32_t item) override {
     const AckermannRobot& r = robot(item);
     const std::span<SteeringJoint> steering = steering_[r.steering];

@@ -142,14 +142,14 @@ class Simplified final : public WatchedMotion {
     std::vector<const double*> watched;
     for (const JointProperties& j : properties) watched.push_back(j.force_driven ? j.velocity : nullptr);
     watch_robot(c, number, watched);
-    // Where another motion of the robot asks for the wrenches on links, they do not act on the base.
+    // When another motion of the robot reads the wrenches on links, they do not act on the base.
     const bool has_levels =
         forces && robot.links.size() > 1 && !c.constant_array(robot.base(), keys::motion_level_names).empty();
     const auto any = [&](bool JointProperties::*what) {
       return forces && std::any_of(properties.begin(), properties.end(), std::mem_fn(what));
     };
     const bool is_first = !robots_[number].contact_role;
-    // The contact algorithm has to know from the start which robots on a fixed base it moves.
+    // The contact algorithm must know from the start which robots on a fixed base it moves.
     const bool is_pushed = !fixed_ || is_first || robots_[number].external.has_value();
     const bool feels_contact = is_pushed && (has_levels || any(&JointProperties::feels_contact));
     model.force_driven = has_levels || any(&JointProperties::force_driven);

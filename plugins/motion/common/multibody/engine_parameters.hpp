@@ -43,7 +43,7 @@ inline constexpr Parameter attitude =
     text("attitude", "engine", "who turns robots of one body: the engine, or the solution of Euler's equations")
         .one_of(attitudes);
 
-/// Those of all engines, in the order in which they are shown.
+/// Parameters of all engines, in the order in which they are shown.
 inline constexpr Parameter parameters_of_robots[] = {world_name, base_mode, joint_mode, self_collision};
 inline constexpr Parameter parameters_of_worlds[] = {mimic_gain, substeps};
 inline constexpr auto common_parameters =

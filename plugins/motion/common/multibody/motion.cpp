@@ -156,7 +156,7 @@ void WorldMotion::move(const Step& step, Range) {
   for (const KinematicRobot& r : kinematic_robots_) r.step(step.dt);
 }
 
-/// Whether it is this motion that moves the robot at present.
+/// Whether this motion moves the robot at present.
 bool WorldMotion::moves(std::uint32_t item) const {
   const Served& s = served_[item];
   return s.by_world ? s.by_world->is_dynamic() : s.by_targets->is_active();
@@ -179,7 +179,7 @@ void WorldMotion::step_world(const Step& step) {
     if (r.is_dynamic()) r.export_state();
 }
 
-/// An engine that does not say which robot it has failed at mostly has at the one that is nearest to its limits.
+/// When an engine fails without naming a robot, it has mostly failed at the robot that is nearest to its limits.
 void WorldMotion::advance(double dt) {
   try {
     world_->advance(dt);

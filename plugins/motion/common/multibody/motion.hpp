@@ -25,7 +25,7 @@ class WorldMotion : public Motion<Algorithm> {
  protected:
   WorldMotion() : Motion(mesh::hull_vertices) {}
 
-  /// What the plugin says of itself.
+  /// Description of the plugin.
   virtual const Description& description() const = 0;
   /// Smallest inertias that the engine can use.
   virtual MinInertia min_inertia() const = 0;

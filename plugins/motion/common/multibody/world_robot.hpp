@@ -44,9 +44,9 @@ class WorldRobot {
 
   /// Restarts the watch: the run begins or continues from the robot's state at the next import. [setup]
   void begin_watch();
-  /// The world moves the robot from now on.
+  /// Lets the world move the robot from now on.
   void take_over();
-  /// Properties to state. Throws Error when they are not those of a body.
+  /// Copies properties to the state. Throws Error when they are not valid for a body.
   void import();
   /// Sets the tasks of drives in a step of the engine of `dt` (s). `gain_of_mimics`: 1/s. Throws Error for targets that
   /// are not finite.
