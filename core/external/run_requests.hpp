@@ -39,7 +39,7 @@ class RunRequests final : public RunControl {
 
   /// Calls it while the run is paused. [set-up]
   void add_attendant(PauseAttendant& attendant) { attendants_.push_back(&attendant); }
-  /// Somebody may ask for something: instants have to be told apart.
+  /// Announces that requests may come: each instant must then be complete before the next one begins.
   void want() { wanted_ = true; }
   bool is_wanted() const { return wanted_; }
   /// Sets the speed of the run as it was chosen outside.

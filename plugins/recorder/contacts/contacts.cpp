@@ -155,7 +155,7 @@ class ContactRecorder final : public Algorithm {
 
   std::string path_;
   std::vector<std::string> names_;  ///< of all objects
-  std::vector<bool> wanted_;        ///< likewise
+  std::vector<bool> wanted_;        ///< by object
   std::vector<RobotId> robot_of_;   ///< by object
   std::vector<RobotList> lists_;    ///< in the order of robots
   std::optional<CsvFile> file_;

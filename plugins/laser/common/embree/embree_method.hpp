@@ -65,7 +65,7 @@ class Embree final : public scanner::Method {
   std::vector<Heightmap> heightmap_surfaces_;  ///< surfaces of heightmap_shapes_, in the frames of the shapes
   UserGeometry scenery_, robots_;
   std::vector<RobotId> robot_of_;    ///< by geometry of the scene
-  std::vector<ObjectId> object_of_;  ///< likewise
+  std::vector<ObjectId> object_of_;  ///< object of each geometry of the scene
   std::vector<scanner::RaySet> sets_;
   bool is_built_ = false;
 };
