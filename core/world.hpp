@@ -84,6 +84,12 @@ class World {
   T* find_value(ObjectId object, const Key<T>& key) const {
     return static_cast<T*>(find_place(object, key));
   }
+  /// Returns the present value of a single property, or `default_value` when there is none of this type.
+  template <class T>
+  T value(ObjectId object, const Key<T>& key, const T& default_value) const {
+    const T* const found = find_value(object, key);
+    return found ? *found : default_value;
+  }
   /// Whether an object has a property of this name: an algorithm or the set-up creates it, or asks for it.
   bool has(ObjectId object, std::string_view key) const { return store_.find(object, key) != nullptr; }
   /// Whether an algorithm writes it.

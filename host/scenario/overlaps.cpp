@@ -25,23 +25,17 @@ struct Moment {
   const muro::Placement* placed = nullptr;
 };
 
-template <class T>
-T value_or(const World& world, ObjectId object, const Key<T>& key, const T& otherwise) {
-  const T* const found = world.find_value(object, key);
-  return found ? *found : otherwise;
-}
-
 Pose pose_of(const World& world, const RobotView& robot, const Moment& moment) {
   if (moment.is_start) return world.constant(robot.base(), keys::initial_pose, Pose{});
   if (moment.placed->object == robot.base()) return moment.placed->pose;
-  return value_or(world, robot.base(), keys::pose, Pose{});
+  return world.value(robot.base(), keys::pose, Pose{});
 }
 
 /// Returns the poses of all links in the frame of the base.
 std::vector<Pose> link_poses(const World& world, const RobotView& robot, const Moment& moment) {
   const auto start = [&](const Link& link) {
     return moment.is_start ? world.constant(link.joint_object, keys::initial_joint_position, 0.0)
-                           : value_or(world, link.joint_object, keys::joint_position, 0.0);
+                           : world.value(link.joint_object, keys::joint_position, 0.0);
   };
   std::vector<Pose> poses(robot.links.size());
   for (std::size_t i = 1; i < poses.size(); ++i) {

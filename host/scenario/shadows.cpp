@@ -12,8 +12,7 @@ namespace {
 
 /// Returns a property by its name only: it belongs to the plugin level.shadow.
 double value(const Simulation& s, const RobotView& robot, std::string_view key) {
-  const double* const found = s.world().find_value(robot.base(), Key<double>{key, "", ""});
-  return found ? *found : 0;
+  return s.world().value(robot.base(), Key<double>{key, "", ""}, 0.0);
 }
 
 }  // namespace

@@ -61,10 +61,7 @@ class Algorithm {
 
   /// Returns the algorithm's own interface of this name, version and layout (`id == Interface::id()`), or null. The
   /// host asks once, after start; the interface is valid as long as the algorithm. [setup]
-  virtual void* find_extension(const ExtensionId& id) {
-    static_cast<void>(id);
-    return nullptr;
-  }
+  virtual void* find_extension(const ExtensionId&) { return nullptr; }
 };
 
 }  // namespace muro

@@ -82,10 +82,7 @@ class Host {
   virtual void log(LogLevel level, std::string_view text) noexcept = 0;
   /// Returns the extension of this name, version and layout, or null. Logs the reason when the host has another
   /// version, or one with another layout. [setup]
-  virtual void* find_extension(const ExtensionId& id) noexcept {
-    static_cast<void>(id);
-    return nullptr;
-  }
+  virtual void* find_extension(const ExtensionId&) noexcept { return nullptr; }
 
  protected:
   ~Host() = default;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rigid-body geometry in SI units: metres, radians, kilograms, newtons.
 // Frames follow ROS REP-103: x forward, y left, z up, right-handed.
-// Every source of muro includes this file. Some functions use numbers instead of Eigen's expressions, because a
-// compiler would instantiate the expressions in each source.
 #pragma once
 
 #include <Eigen/Core>
@@ -72,41 +70,17 @@ struct Inertia {
     return {mass, com, tensor(0, 0), tensor(1, 1), tensor(2, 2), tensor(0, 1), tensor(0, 2), tensor(1, 2)};
   }
   /// Returns the inertia of this body in another frame, in which the frame of the body has pose `pose`.
-  Inertia in(const Pose& pose) const {
-    const Mat3 r = pose.orientation.toRotationMatrix();
-    double turned[3][3] = {};  // r * tensor, then that * r^T
-    for (int i = 0; i < 3; ++i) {
-      const double x = r(i, 0), y = r(i, 1), z = r(i, 2);
-      const double row[3] = {x * ixx + y * ixy + z * ixz, x * ixy + y * iyy + z * iyz, x * ixz + y * iyz + z * izz};
-      for (int j = 0; j < 3; ++j) turned[i][j] = row[0] * r(j, 0) + row[1] * r(j, 1) + row[2] * r(j, 2);
-    }
-    return {mass, pose * com, turned[0][0], turned[1][1], turned[2][2], turned[0][1], turned[0][2], turned[1][2]};
-  }
+  Inertia in(const Pose& pose) const;
   /// Joins two bodies described in the same frame (parallel-axis theorem).
-  Inertia operator+(const Inertia& b) const {
-    const double total = mass + b.mass;
-    if (total <= 0) return {};
-    Vec3 centre;
-    for (int i = 0; i < 3; ++i) centre[i] = (mass * com[i] + b.mass * b.com[i]) / total;
-    const Inertia f = moved_to(centre), g = b.moved_to(centre);
-    return {total, centre, f.ixx + g.ixx, f.iyy + g.iyy, f.izz + g.izz, f.ixy + g.ixy, f.ixz + g.ixz, f.iyz + g.iyz};
-  }
+  Inertia operator+(const Inertia& b) const;
   /// Returns the tensor (kg m^2) about the point `centre` (m, same axes).
   Mat3 about(const Vec3& centre) const { return moved_to(centre).tensor(); }
 
  private:
   /// Returns a copy with `centre` as its com and with the tensor about that point.
-  Inertia moved_to(const Vec3& centre) const {
-    const double x = com.x() - centre.x(), y = com.y() - centre.y(), z = com.z() - centre.z();
-    return {mass,
-            centre,
-            ixx + mass * (y * y + z * z),
-            iyy + mass * (x * x + z * z),
-            izz + mass * (x * x + y * y),
-            ixy - mass * x * y,
-            ixz - mass * x * z,
-            iyz - mass * y * z};
-  }
+  Inertia moved_to(const Vec3& centre) const;
 };
 
 }  // namespace muro
+
+#include "muro/detail/inertia.hpp"

@@ -23,10 +23,7 @@ class WorldBuilder {
   /// has priority.
   virtual void friction_rule(std::uint32_t rule) noexcept = 0;
   /// Returns the host's extension of this name, version and layout, or null. [setup]
-  virtual void* find_extension(const ExtensionId& id) noexcept {
-    static_cast<void>(id);
-    return nullptr;
-  }
+  virtual void* find_extension(const ExtensionId&) noexcept { return nullptr; }
 
  protected:
   ~WorldBuilder() = default;

@@ -67,10 +67,7 @@ class RobotBuilder {
 
  public:
   /// Returns the host's extension of this name, version and layout, or null. [setup]
-  virtual void* find_extension(const ExtensionId& id) noexcept {
-    static_cast<void>(id);
-    return nullptr;
-  }
+  virtual void* find_extension(const ExtensionId&) noexcept { return nullptr; }
 
  protected:
   ~RobotBuilder() = default;

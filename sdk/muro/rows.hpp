@@ -2,11 +2,11 @@
 // Elements of structs that may grow at their end within a major version of the SDK.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <iterator>
 #include <type_traits>
+
+#include "muro/detail/row_iterator.hpp"
 
 namespace muro {
 
@@ -25,29 +25,7 @@ T known_part(const void* from, std::size_t size) {
 template <class T>
 class Rows {
  public:
-  class Iterator {
-   public:
-    using iterator_category = std::forward_iterator_tag;
-    using value_type = T;
-    using difference_type = std::ptrdiff_t;
-    using pointer = const T*;
-    using reference = const T&;
-
-    constexpr Iterator() = default;
-    constexpr Iterator(const T* first, std::size_t stride, std::size_t at) : first_(first), stride_(stride), at_(at) {}
-    constexpr const T& operator*() const { return element(first_, stride_, at_); }
-    constexpr const T* operator->() const { return &**this; }
-    constexpr Iterator& operator++() { return ++at_, *this; }
-    constexpr Iterator operator++(int) { return {first_, stride_, at_++}; }
-    friend constexpr bool operator==(const Iterator& a, const Iterator& b) { return a.at_ == b.at_; }
-    friend constexpr std::ptrdiff_t operator-(const Iterator& a, const Iterator& b) {
-      return std::ptrdiff_t(a.at_) - std::ptrdiff_t(b.at_);
-    }
-
-   private:
-    const T* first_ = nullptr;
-    std::size_t stride_ = sizeof(T), at_ = 0;
-  };
+  using Iterator = detail::RowIterator<T>;
 
   constexpr Rows() = default;
   constexpr Rows(const T* first, std::size_t count, std::size_t stride = sizeof(T))
@@ -60,7 +38,7 @@ class Rows {
   constexpr std::size_t size() const { return size_; }
   constexpr bool empty() const { return size_ == 0; }
   constexpr std::size_t stride() const { return stride_; }  ///< bytes
-  constexpr const T& operator[](std::size_t i) const { return element(first_, stride_, i); }
+  constexpr const T& operator[](std::size_t i) const { return detail::row(first_, stride_, i); }
   constexpr const T& front() const { return (*this)[0]; }
   constexpr const T& back() const { return (*this)[size_ - 1u]; }
   constexpr Iterator begin() const { return {first_, stride_, 0}; }
@@ -69,11 +47,6 @@ class Rows {
   T known(std::size_t i) const { return known_part<T>(&(*this)[i], stride_); }
 
  private:
-  static constexpr const T& element(const T* first, std::size_t stride, std::size_t i) {
-    if (stride == sizeof(T)) return first[i];
-    return *reinterpret_cast<const T*>(reinterpret_cast<const std::byte*>(first) + i * stride);
-  }
-
   const T* first_ = nullptr;
   std::uint32_t size_ = 0;
   std::uint32_t stride_ = sizeof(T);

@@ -55,35 +55,6 @@ constexpr std::size_t size_of(Scalar s) {
 template <class T>
 struct ValueTraits;
 
-namespace detail {
-template <Scalar S>
-struct ScalarTraits {
-  static constexpr Scalar scalar = S;
-  static constexpr std::span<const std::string_view> labels{};
-};
-inline constexpr std::string_view xyz_labels[] = {"x", "y", "z"};
-inline constexpr std::string_view pose_labels[] = {"x", "y", "z", "qx", "qy", "qz", "qw"};
-inline constexpr std::string_view quat_labels[] = {"qx", "qy", "qz", "qw"};
-inline constexpr std::string_view twist_labels[] = {"vx", "vy", "vz", "wx", "wy", "wz"};
-inline constexpr std::string_view wrench_labels[] = {"fx", "fy", "fz", "tx", "ty", "tz"};
-inline constexpr std::string_view inertia_labels[] = {"mass", "cx",  "cy",  "cz",  "ixx",
-                                                      "iyy",  "izz", "ixy", "ixz", "iyz"};
-}  // namespace detail
-
-#define MURO_SCALAR_TYPE(TYPE, KIND)                              \
-  template <>                                                     \
-  struct ValueTraits<TYPE> : detail::ScalarTraits<Scalar::KIND> { \
-    static constexpr std::string_view name = #KIND;               \
-  };
-MURO_SCALAR_TYPE(double, f64)
-MURO_SCALAR_TYPE(float, f32)
-MURO_SCALAR_TYPE(std::int64_t, i64)
-MURO_SCALAR_TYPE(std::int32_t, i32)
-MURO_SCALAR_TYPE(std::uint64_t, u64)
-MURO_SCALAR_TYPE(std::uint32_t, u32)
-MURO_SCALAR_TYPE(std::uint8_t, u8)
-#undef MURO_SCALAR_TYPE
-
 /// Declares a value type made of equal scalars without padding.
 #define MURO_VALUE_TYPE(TYPE, NAME, KIND, LABELS)                      \
   template <>                                                          \
@@ -114,18 +85,17 @@ MURO_SCALAR_TYPE(std::uint8_t, u8)
     static constexpr std::span<const std::string_view> labels{}; \
   }
 
-MURO_VALUE_TYPE(Vec3, "muro.Vec3", f64, detail::xyz_labels);
-MURO_VALUE_TYPE(Quat, "muro.Quat", f64, detail::quat_labels);
-MURO_VALUE_TYPE(Pose, "muro.Pose", f64, detail::pose_labels);
-MURO_VALUE_TYPE(Twist, "muro.Twist", f64, detail::twist_labels);
-MURO_VALUE_TYPE(Wrench, "muro.Wrench", f64, detail::wrench_labels);
-MURO_VALUE_TYPE(Inertia, "muro.Inertia", f64, detail::inertia_labels);
-
+/// A type that MURO_GROWING_TYPE declares.
 template <class T>
-inline constexpr ValueType value_type{ValueTraits<T>::name, sizeof(T), alignof(T), ValueTraits<T>::scalar,
-                                      ValueTraits<T>::labels, requires {ValueTraits<T>::grows;
-}  // namespace muro
-}
-;
+concept GrowingType = requires {
+  ValueTraits<T>::grows;
+};
+
+/// The ValueType of a type with traits.
+template <class T>
+inline constexpr ValueType value_type{ValueTraits<T>::name,   sizeof(T),     alignof(T), ValueTraits<T>::scalar,
+                                      ValueTraits<T>::labels, GrowingType<T>};
 
 }  // namespace muro
+
+#include "muro/detail/standard_types.hpp"

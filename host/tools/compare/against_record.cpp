@@ -58,7 +58,7 @@ class SimulatedJoint {
     const ObjectId object = world.object(joint);
     velocity_ = world.find_value(object, keys::joint_velocity);
     constexpr Key<double> offset{"servo.offset", "", ""};
-    if (const double* const found = world.find_value(object, offset)) offset_ = *found;
+    offset_ = world.value(object, offset, offset_);
     const Slot* slot = world.store().find(object, keys::joint_position.name);
     const Slot::User* writer = slot ? slot->writer() : nullptr;
     for (const auto& instance : simulation.instances())
