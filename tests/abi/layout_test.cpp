@@ -211,6 +211,7 @@ Lines present() {
   Lines out;
   add_tables(out);
   add_places(abi::contract_places, out);
+  add_places(abi::later_places, out);
   add_functions_of_hosts(out);
   add_functions_of_plugins(out);
   add_extension(Inspection::id(), out);
@@ -259,8 +260,9 @@ constexpr std::size_t members() {
 
 /// Returns the number of members of a struct that are in the list.
 std::size_t listed(const std::string& name) {
-  return std::size_t(std::count_if(std::begin(abi::contract_places), std::end(abi::contract_places),
-                                   [&](const abi::Place& p) { return p.name.starts_with(name + "."); }));
+  const auto is_member = [&](const abi::Place& p) { return p.name.starts_with(name + "."); };
+  return std::size_t(std::count_if(std::begin(abi::contract_places), std::end(abi::contract_places), is_member) +
+                     std::count_if(abi::later_places.begin(), abi::later_places.end(), is_member));
 }
 
 TEST(Contract, HasEveryMemberOfItsStructsOnTheList) {

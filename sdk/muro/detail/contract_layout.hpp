@@ -3,6 +3,8 @@
 // tests/abi has it on record.
 #pragma once
 
+#include <array>
+
 #include "muro/detail/abi.hpp"
 #include "muro/detail/layout.hpp"
 #include "muro/scene.hpp"
@@ -229,6 +231,9 @@ inline constexpr Place contract_places[] = {
     MURO_PLACE(ReaderEntry, description_size),
 };
 #pragma GCC diagnostic pop
+
+/// Members that minor versions have added at the end of structs that may grow. They are on record, but not in the hash.
+inline constexpr std::array<Place, 0> later_places{};
 
 /// The hash of the contract's structs, as a plugin's table has it.
 constexpr std::uint32_t layout_of_contract() { return layout_of(contract_places); }
