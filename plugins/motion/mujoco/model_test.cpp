@@ -278,6 +278,28 @@ TEST(MujocoModel, TreesThatAreNoRobotsStandStillAndAreScenery) {
   EXPECT_NEAR(scene.pose_of("ball").position.z(), 1.2, 2e-3);
 }
 
+TEST(MujocoModel, AContactOfTwoRobotsIsInTheListsOfBoth) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("yard.xml", R"(<mujoco><worldbody><geom type="plane" size="1 1 1"/>
+<body name="crate" pos="0 0 0.1"><freejoint/><geom type="box" size="0.2 0.2 0.1"/></body>
+<body name="ball" pos="0 0 0.3"><freejoint/><geom size="0.1"/></body></worldbody></mujoco>)");
+  Yard scene(path);
+  scene.use("recorder.contacts", 500, {}, {{"file", folder.path("contacts.csv")}});
+  scene.build();
+  scene.run_for(2);
+  const auto force_on = [&](const char* robot, const char* other) {
+    const ObjectId body = scene.world().find_robot(other)->base();
+    double sum = 0;
+    for (const ContactWrench& c :
+         scene.world().values(scene.world().find_robot(robot)->base(), keys::contact_wrenches_of_motion))
+      if (c.other == body) sum += c.wrench.force.z();
+    return sum;
+  };
+  const double weight = 1000 * 4.0 / 3 * M_PI * 0.001 * 9.81;
+  EXPECT_NEAR(force_on("ball", "crate"), weight, 0.01 * weight);
+  EXPECT_NEAR(force_on("crate", "ball"), -weight, 0.01 * weight);
+}
+
 TEST(MujocoModel, RobotsThatNoForceMovesAreTouched) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("ball.xml",

@@ -219,8 +219,8 @@ bool ModelWorld::step() {
   return !full || m.nconmax >= most_contacts;
 }
 
-/// Reports a contact to the first of its robots that the world moves. `force` and `torque`: on the second body, to
-/// which MuJoCo's normal points.
+/// Reports a contact to each of its robots that the world moves; once if both bodies are of one robot. `force` and
+/// `torque`: on the second body, to which MuJoCo's normal points.
 void ModelWorld::tell_contact(const mjContact& contact, const std::int32_t (&owners)[2], const Vec3& force,
                               const Vec3& torque) const {
   for (int side = 0; side < 2; ++side) {
@@ -236,7 +236,7 @@ void ModelWorld::tell_contact(const mjContact& contact, const std::int32_t (&own
                                 sign * vector_of(contact.frame),
                                 -contact.dist,
                                 {sign * force, sign * torque}});
-    return;
+    if (owners[0] == owners[1]) return;
   }
 }
 
