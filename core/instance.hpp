@@ -85,6 +85,7 @@ class Instance final : private Connector {
   /// Returns the interface that the algorithm offers, or null. [after connect]
   template <class Interface>
   Interface* find_extension() {
+    if (is_left_out_) return nullptr;
     const CallScope scope(*callee_, "find_extension");
     return static_cast<Interface*>(algorithm_->find_extension(Interface::id()));
   }

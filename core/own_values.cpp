@@ -3,9 +3,12 @@
 
 #include <cstring>
 
+#include "muro/rows.hpp"
 #include "muro/shape.hpp"
 
 namespace muro {
+
+bool OwnValues::knows(const ValueType& type) { return type == value_type<Shape>; }
 
 OwnValues::OwnValues(const KeyInfo& key, const void* data, std::uint32_t count) : key_(key), data_(data) {
   constexpr const ValueType* own = &value_type<Shape>;  // the only type that grows

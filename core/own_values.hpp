@@ -18,6 +18,9 @@ class OwnValues {
   OwnValues(const OwnValues&) = delete;
   OwnValues& operator=(const OwnValues&) = delete;
 
+  /// Whether this host knows a type that grows.
+  static bool knows(const ValueType& type);
+
   const KeyInfo& key() const { return key_; }
   const void* data() const { return data_; }
 

@@ -32,7 +32,8 @@ void grow_list(ListHeader* list, std::uint64_t wanted) {
 
 std::string_view name_of(Role role) {
   constexpr std::string_view names[] = {"state", "command", "motion_trait"};
-  return names[static_cast<int>(role)];
+  const auto number = static_cast<std::size_t>(role);
+  return number < std::size(names) ? names[number] : "unknown";
 }
 
 std::string_view name_of(Multiplicity multiplicity) {
@@ -77,6 +78,11 @@ std::string PropertyStore::who(Accessor p) const { return accessors_[p]; }
 std::uint32_t PropertyStore::column_of(Accessor accessor, const KeyInfo& given) {
   const OwnValues own(given, nullptr, 0);
   const KeyInfo& key = own.key();
+  if (key.type->grows && !OwnValues::knows(*key.type))
+    problems_.push_back(
+        fmt::format("property `{}`: {} declares the type {} as one that grows; only types of the SDK do: use "
+                    "MURO_VALUE_TYPE or MURO_OPAQUE_TYPE",
+                    key.name, who(accessor), key.type->name));
   const auto it = column_index_.find(key.name);
   if (it == column_index_.end()) {
     columns_.emplace_back(key);
@@ -140,7 +146,7 @@ void PropertyStore::reserve(Slot& s, Multiplicity multiplicity, std::uint32_t co
       if (count > 0 && !s.place) {
         s.place = column.allocate(count, partition_of(s.object));
         s.count = count;
-        *s.array = {s.place, count};
+        *s.array = {s.place, count, column.key().type->size};
       }
       break;
     case Multiplicity::list:

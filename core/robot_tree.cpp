@@ -177,7 +177,7 @@ void RobotTree::set_raw(const KeyInfo& given, const void* given_data, std::uint3
   const KeyInfo& key = own.key();
   const void* const data = own.data();
   if (const std::string problem = problem_of_values(key, data, elements); !problem.empty())
-    report(
+    return report(
         Severity::error,
         fmt::format("`{}` of {} {}", key.name, in_backquotes(components_[std::size_t(last_component_)].name), problem),
         0, 0);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/error.hpp"
@@ -29,6 +30,14 @@ std::string first_problem(const void* data, std::uint32_t count) {
   return "";
 }
 
+/// Whether a type has the name of a type of the SDK, but another size or alignment.
+bool has_other_layout(const ValueType& type) {
+  const ValueType* const own[] = {&value_type<Pose>,  &value_type<Twist>, &value_type<Inertia>,
+                                  &value_type<Shape>, &value_type<Vec3>,  &value_type<double>};
+  return std::any_of(std::begin(own), std::end(own),
+                     [&](const ValueType* known) { return known->name == type.name && !(*known == type); });
+}
+
 std::string problem_of_vector(const KeyInfo& key, const Vec3& v) {
   if (key.name != keys::gravity.name) return v.allFinite() ? "" : "has an element that is not finite";
   return limits::within(limits::gravity, v) ? "" : "has a component that is not from -1e4 to 1e4 m/s^2";
@@ -43,15 +52,17 @@ std::string problem_of_number(const KeyInfo& key, double x) {
 }  // namespace
 
 std::string problem_of_values(const KeyInfo& key, const void* data, std::uint32_t count) {
-  const std::string_view type = key.type->name;
-  if (type == ValueTraits<Pose>::name) return first_problem<Pose>(data, count);
-  if (type == ValueTraits<Twist>::name) return first_problem<Twist>(data, count);
-  if (type == ValueTraits<Inertia>::name) return first_problem<Inertia>(data, count);
-  if (type == ValueTraits<Shape>::name) return first_problem<Shape>(data, count);
+  const ValueType& type = *key.type;
+  if (has_other_layout(type))
+    return "has the type " + std::string(type.name) + " with another layout than in this muro";
+  if (type == value_type<Pose>) return first_problem<Pose>(data, count);
+  if (type == value_type<Twist>) return first_problem<Twist>(data, count);
+  if (type == value_type<Inertia>) return first_problem<Inertia>(data, count);
+  if (type == value_type<Shape>) return first_problem<Shape>(data, count);
   std::string problem;
   for (std::uint32_t i = 0; i < count && problem.empty(); ++i) {
-    if (type == ValueTraits<Vec3>::name) problem = problem_of_vector(key, value_at<Vec3>(data, i));
-    if (type == ValueTraits<double>::name) problem = problem_of_number(key, value_at<double>(data, i));
+    if (type == value_type<Vec3>) problem = problem_of_vector(key, value_at<Vec3>(data, i));
+    if (type == value_type<double>) problem = problem_of_number(key, value_at<double>(data, i));
   }
   return problem;
 }

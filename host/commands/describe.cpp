@@ -45,7 +45,7 @@ Json describe_property(const PropertyStore& store, const PropertyStore::NamedSlo
   return p;
 }
 
-/// All tasks in the order in which they would run if all of them were due at the same time.
+/// All tasks in the order of their kinds. Sequences and readers on demand change it, as in the first instant.
 Json describe_schedule(const Simulation& simulation) {
   const std::vector<Task>& tasks = simulation.scheduler().tasks();
   std::vector<TaskId> ids(tasks.size());
@@ -88,7 +88,7 @@ void print(const Json& all) {
       fmt::print("\n");
     }
   }
-  fmt::print("\nSchedule, by the order within an instant:\n");
+  fmt::print("\nAlgorithms, in the order of their kinds:\n");
   for (const auto& e : all["schedule"])
     fmt::print("  {:<32} {:>6} items  {:<12}{}\n", e["name"].get<std::string>(), e["items"].get<int>(),
                e["rate_hz"].is_string() ? std::string("on demand") : fmt::format("{:g} Hz", e["rate_hz"].get<double>()),

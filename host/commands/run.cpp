@@ -147,27 +147,20 @@ void require_view(const Registry& registry) {
         "libegl-dev and libstb-dev, and build muro again");
 }
 
-/// Adds a window, which sets the pace, to a scenario that has none. Values that overrides of `algorithms.view` give
-/// have priority.
-void add_view(Node& root, double speed) {
-  const Node* const algorithms = root.find("algorithms");
-  const auto is_given = [&](const char* key) {
-    const Node* const view = algorithms ? algorithms->find("view") : nullptr;
-    return view && view->find(key);
+/// Adds a window, which sets the pace, to the tree of a scenario, unless the file or an override has a window.
+/// Overrides of `algorithms.view` apply to it.
+void add_view(Node& root, const std::vector<std::string>& overrides, double speed) {
+  const auto adds_window = [](const std::string& o) {
+    return o.starts_with("algorithms.") && !o.starts_with("algorithms.view.") && o.ends_with(".use=view.window");
   };
-  bool has_window = false;
-  if (algorithms)
-    for (const auto& [name, algorithm] : algorithms->map) {
-      const Node* const use = algorithm.find("use");
-      has_window = has_window || (use && use->scalar == "view.window");
-    }
-  if (has_window && !(is_given("use") && !is_given("rate"))) return;
-  const std::pair<const char*, std::string> defaults[] = {
-      {"use", "view.window"}, {"rate", "60"}, {"speed", fmt::format("{}", speed)}};
-  std::vector<std::string> missing;
-  for (const auto& [key, value] : defaults)
-    if (!is_given(key)) missing.push_back(fmt::format("algorithms.view.{}={}", key, value));
-  for (const std::string& one : missing) apply_override(root, one);
+  if (std::any_of(overrides.begin(), overrides.end(), adds_window)) return;
+  if (const Node* const algorithms = root.find("algorithms"))
+    for (const auto& [name, algorithm] : algorithms->map)
+      if (const Node* const use = algorithm.find("use"); use && use->scalar == "view.window") return;
+  for (const std::string& assignment :
+       {std::string("algorithms.view.use=view.window"), std::string("algorithms.view.rate=60"),
+        fmt::format("algorithms.view.speed={}", speed)})
+    apply_override(root, assignment);
 }
 
 /// Runs to `end` (ns), to an interrupt or to a failure; if `includes_end`, also what is due at `end`. The error goes to
@@ -224,7 +217,7 @@ int run(const RunOptions& options) {
   if (options.view) require_view(registry);
   const double view_speed = options.speed.empty() ? 1 : pacing_factor(options.speed);
   Scenario scenario = open_file(options.scenario, registry, [&](Node& root) {
-    if (options.view) add_view(root, view_speed);
+    if (options.view) add_view(root, options.scenario.overrides, view_speed);
   });
   add_inputs(scenario, options);
   BuiltScenario built = open_scenario(std::move(scenario), registry, [&](Simulation& s) {

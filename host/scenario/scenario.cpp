@@ -197,8 +197,8 @@ Scenario read_scenario(const std::string& path, const std::vector<std::string>& 
                        const std::function<void(Node& root)>& complete) {
   Scenario out;
   Node root = load_yaml(path, &out.files);
-  for (const std::string& o : overrides) apply_override(root, o);
   if (complete) complete(root);
+  for (const std::string& o : overrides) apply_override(root, o);
   out.file = path;
   Problems problems;
   check_empty(root, problems);

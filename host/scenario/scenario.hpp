@@ -186,7 +186,7 @@ inline constexpr unsigned max_threads = 1024;
 /// Returns the name of copy `index`: "rover_3", or "rover" when copies are not numbered.
 std::string instance_name(const std::string& name, bool numbered, std::size_t index);
 
-/// Reads a scenario with its includes and overrides. `complete`, if given, adds to its tree before the tree is read.
+/// Reads a scenario with its includes and overrides. `complete`, if given, adds to its tree before overrides change it.
 /// Throws SetupError with every problem found.
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& overrides,
                        const std::function<void(Node& root)>& complete = {});

@@ -8,12 +8,15 @@
 //      public:
 //       static constexpr const char* name = "brake";
 //       static constexpr const char* version = "1.0.0";
-//       static constexpr const char* summary = "Stops before an obstacle";
+//       static constexpr const char* summary = "Stops before an obstacle ahead";
 //       static constexpr muro_port inputs[] = {{"ranges", "m", 0, 0}};
 //       static constexpr muro_port outputs[] = {{"command.twist", "m/s, rad/s", 6, 0}};
 //
 //       explicit Brake(const muro::controller::Setup& setup);
-//       void step(const muro::controller::Step& now) { now.output(0)[0] = now.input(0)[0] > 1 ? 0.5 : 0; }
+//       void step(const muro::controller::Step& now) {
+//         const auto ranges = now.input(0);  // the middle ray looks ahead
+//         now.output(0)[0] = ranges[ranges.size() / 2] > 1 ? 0.5 : 0;
+//       }
 //     };
 //     MURO_CONTROLLER(Brake)
 //

@@ -11,6 +11,7 @@ install(TARGETS muro_sdk muro_elementary muro_controller muro_describe EXPORT mu
 install(DIRECTORY sdk/muro DESTINATION include FILES_MATCHING PATTERN "*.hpp")
 install(FILES sdk/c/muro_controller.h sdk/c/muro_controller.hpp sdk/c/muro_elementary.h DESTINATION include)
 install(DIRECTORY sdk/template DESTINATION share/muro)
+install(FILES sdk/CHANGELOG.md DESTINATION share/muro)
 install(EXPORT muroTargets NAMESPACE muro:: DESTINATION ${package})
 export(EXPORT muroTargets NAMESPACE muro:: FILE ${CMAKE_BINARY_DIR}/${package}/muroTargets.cmake)
 

@@ -101,7 +101,7 @@ struct PropertyUse {
 
 /// Description of an algorithm. May grow at its end.
 struct Description {
-  std::string_view id;  ///< "motion.point": kind or family, dot, name
+  std::string_view id;  ///< "motion.point": family, dot, name
   Kind kind = Kind::motion;
   std::string_view version;  ///< semantic
   std::string_view summary;  ///< one line

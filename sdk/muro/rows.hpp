@@ -4,11 +4,21 @@
 
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <type_traits>
+#include <utility>
 
 #include "muro/detail/row_iterator.hpp"
 
 namespace muro {
+
+namespace detail {
+
+/// The type of the elements of an array, a vector or a span.
+template <class Elements>
+using ElementOf = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(std::declval<const Elements&>()))>>;
+
+}  // namespace detail
 
 /// A copy of the struct at `from`, of which its maker knows the first `size` bytes; the other members have their
 /// default values.
@@ -31,9 +41,9 @@ class Rows {
   constexpr Rows(const T* first, std::size_t count, std::size_t stride = sizeof(T))
       : first_(first), size_(std::uint32_t(count)), stride_(std::uint32_t(stride)) {}
   /// Elements that lie one after the other: an array, a vector, a span. They outlive the view.
-  template <class Elements>
-  requires(!std::is_same_v<Elements, Rows>) && requires(const Elements& e) { static_cast<const T*>(std::data(e)); }
+  template <class Elements, class = std::enable_if_t<std::is_same_v<detail::ElementOf<Elements>, T>>>
   constexpr Rows(const Elements& elements) : Rows(std::data(elements), std::size(elements)) {}
+  Rows(std::initializer_list<T>) = delete;  // its elements would end with the statement
 
   constexpr std::size_t size() const { return size_; }
   constexpr bool empty() const { return size_ == 0; }

@@ -80,7 +80,7 @@ struct ReaderDescription {
   std::string_view id, version, summary;
   std::span<const std::string_view> extensions;
 };
-struct Shape {  // without `surface` and `color`
+struct alignas(16) Shape {  // without `surface` and `color`
   std::uint32_t kind = 0, mesh = 0, texture = 0, material_source = 0;
   double size[3] = {};
   double position[3] = {}, orientation[4] = {0, 0, 0, 1};
@@ -227,7 +227,7 @@ class Counter final : public AlgorithmInstance {
 class Reader final : public ReaderInstance {
  public:
   bool read(std::string_view, RobotBuilder& builder, ErrorText&) noexcept override {
-    static constexpr ValueType shape{"muro.Shape", sizeof(Shape), 8, 7, {}, true};
+    static constexpr ValueType shape{"muro.Shape", sizeof(Shape), alignof(Shape), 7, {}, true};
     const double up[3] = {0, 0, 1};
     builder.base("base");
     const KeyInfo key{"collision.shapes", "m", &shape, 0, {}};

@@ -52,7 +52,8 @@ struct Fixture : ::testing::Test {
   Scheduler scheduler;
 
   TaskId add(const std::string& name, double hertz, Kind kind = Kind::kinematics, std::int64_t phase = 0,
-             std::vector<std::uint32_t> reads = {}, std::vector<std::uint32_t> writes = {}) {
+             std::vector<std::uint32_t> reads = {}, std::vector<std::uint32_t> writes = {},
+             Task::Rank rank = Task::Rank::first) {
     recorders.emplace_back(name, log);
     Task task;
     task.name = name;
@@ -61,6 +62,7 @@ struct Fixture : ::testing::Test {
     task.rate = Rate(hertz);
     task.phase = phase;
     task.kind = kind;
+    task.rank = rank;
     task.reads = std::move(reads);
     task.writes = std::move(writes);
     return scheduler.add(std::move(task));
@@ -183,7 +185,7 @@ TEST_F(StepsOfMotion, LevelsChangeBeforeContactAndAfterTheirRules) {
   add("motion", 10, Kind::motion, 0, {2, 6}, {5});
   add("sensor", 20, Kind::sensor, 0, {2, 6}, {3});
   add("rules", 10, Kind::level, 0, {5}, {7});
-  add("levels", 0, Kind::level, 0, {7}, {6});
+  add("levels", 0, Kind::level, 0, {7}, {6}, Task::Rank::second);
   scheduler.run_until(150'000'000);
   EXPECT_EQ(log, (Log{"sensor@0", "rules@0", "levels@0", "collision@0", "contact@0", "motion@0", "sensor@50",
                       "sensor@100", "rules@100", "levels@100", "collision@100", "contact@100", "motion@100"}))

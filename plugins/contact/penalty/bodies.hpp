@@ -24,14 +24,14 @@ inline constexpr std::int32_t not_dynamic = -1;
 
 /// An object of the scene.
 struct Body {
-  const Pose* pose = nullptr;                  ///< null: scenery
-  const Twist* twist = nullptr;                ///< null: scenery, which does not move
-  std::int32_t robot = not_dynamic;            ///< index in Bodies::robots, when forces can move it
-  std::uint32_t dynamic_body = 0;              ///< index in Bodies::dynamic_bodies, when forces can move it
-  std::int32_t kinematic_robot = not_dynamic;  ///< index in Bodies::kinematic_robots, if forces never move it
-  std::uint32_t model = 0;                     ///< equal for all bodies of one robot
-  std::uint64_t name = 0;                      ///< hash of the name of the object
-  std::uint32_t first_shape = 0;               ///< index in Bodies::shapes
+  const Pose* pose = nullptr;         ///< null: scenery
+  const Twist* twist = nullptr;       ///< null: scenery, which does not move
+  std::int32_t robot = not_dynamic;   ///< index in Bodies::robots, when forces can move it
+  std::uint32_t dynamic_body = 0;     ///< index in Bodies::dynamic_bodies, when forces can move it
+  std::int32_t kinematic_robot = -1;  ///< index in Bodies::kinematic_robots, if forces never move it
+  std::uint32_t model = 0;            ///< equal for all bodies of one robot
+  std::uint64_t name = 0;             ///< hash of the name of the object
+  std::uint32_t first_shape = 0;      ///< index in Bodies::shapes
 };
 
 /// A rigid body that forces move: a robot, or one of its links if its motion reads the forces on each link.
@@ -147,7 +147,7 @@ struct Bodies {
     const Body& b = (*this)[body];
     if (b.robot != not_dynamic)
       return is_moved_by_forces(world_of(b.robot)) ? nullptr : &robots[std::size_t(b.robot)].told;
-    if (b.kinematic_robot == not_dynamic) return nullptr;
+    if (b.kinematic_robot < 0) return nullptr;
     const KinematicRobot& robot = kinematic_robots[std::size_t(b.kinematic_robot)];
     return robot.is_read ? &robot.told : nullptr;
   }

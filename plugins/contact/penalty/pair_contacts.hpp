@@ -60,7 +60,7 @@ class PairContacts {
     keep_told(robot);
   }
   /// Adds the reactions of contacts that other robots compute.
-  void apply_reactions(std::uint32_t robot) { add_reactions(robot); }
+  void add_reactions(std::uint32_t robot);
   /// Lists what contacts do to robots that no force moves, where something reads it. Once, after all passes.
   void list_kinematic_robots() const;
   /// Runs all passes for all robots.
@@ -73,7 +73,7 @@ class PairContacts {
     prepare_groups();
     each(&PairContacts::find_forces);
     each(&PairContacts::apply);
-    each(&PairContacts::apply_reactions);
+    each(&PairContacts::add_reactions);
     if (bodies_.tells_kinematic_robots) list_kinematic_robots();
   }
 
@@ -214,7 +214,6 @@ class PairContacts {
   void find_load(std::uint32_t self);
   void apply_forces(std::uint32_t self);
   void keep_told(std::uint32_t self);
-  void add_reactions(std::uint32_t self);
 
   bool computes(std::uint32_t self, std::int32_t other) const;
   const Mobility& mobility(std::int32_t robot, std::uint32_t body) const {

@@ -89,7 +89,7 @@ class Penalty final : public Algorithm {
     switch (step.phase) {
       case with_scenery:
         return scenery_contacts_->apply_forces(context, range);
-      case few_pairs:
+      case pair_begin:
         return begin_pairs(context);
       case pair_contacts:
         return each_pair_robot(&PairContacts::find_contacts, range);
@@ -102,17 +102,18 @@ class Penalty final : public Algorithm {
       case pair_application:
         return each_pair_robot(&PairContacts::apply, range);
       case pair_reactions:
-        return each_pair_robot(&PairContacts::apply_reactions, range);
+        return each_pair_robot(&PairContacts::add_reactions, range);
       case kinematic_lists:
         return pair_contacts_->list_kinematic_robots();
     }
   }
 
  private:
-  /// Phases of a step. Those of pairs run only when many robots touch something that moves; few_pairs serves few.
+  /// Phases of a step. `pair_begin` decides whether few or many robots touch something that moves, and serves few; the
+  /// phases behind it serve many.
   enum PhaseName : std::uint32_t {
     with_scenery,
-    few_pairs,
+    pair_begin,
     pair_contacts,
     pair_loads,
     pair_groups,
@@ -159,7 +160,7 @@ class Penalty final : public Algorithm {
   std::uint8_t many_pairs_ = 0, lists_kinematic_robots_ = 0;
   const Phase for_many_{.index_space = Phase::IndexSpace::robots, .enabled = &many_pairs_};
   const Phase phases_[phase_count] = {{Phase::IndexSpace::robots, Phase::Scope::own_robot},  // with_scenery
-                                      {},                                                    // few_pairs
+                                      {},                                                    // pair_begin
                                       for_many_,                                             // pair_contacts
                                       for_many_,                                             // pair_loads
                                       {.enabled = &many_pairs_},                             // pair_groups

@@ -5,7 +5,7 @@
 #include "muro/plugin.hpp"
 #include "plugins/motion/common/multibody/engine_description.hpp"
 #include "plugins/motion/common/multibody/engine_parameters.hpp"
-#include "plugins/motion/common/multibody/motion.hpp"
+#include "plugins/motion/common/multibody/world_motion.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "plugins/common/text/quote.hpp"
 #include "plugins/motion/common/multibody/engine_description.hpp"
 #include "plugins/motion/common/multibody/engine_parameters.hpp"
-#include "plugins/motion/common/multibody/motion.hpp"
+#include "plugins/motion/common/multibody/world_motion.hpp"
 #include "quick_convergence.hpp"
 
 namespace {

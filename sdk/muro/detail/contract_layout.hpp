@@ -233,6 +233,8 @@ inline constexpr Place contract_places[] = {
 #pragma GCC diagnostic pop
 
 /// Members that minor versions have added at the end of structs that may grow. They are on record, but not in the hash.
+/// A member begins at or behind the size that the struct had before: padding at its end is filled by a member of its
+/// own.
 inline constexpr std::array<Place, 0> later_places{};
 
 /// The hash of the contract's structs, as a plugin's table has it.

@@ -102,10 +102,6 @@ class Accelerations {
     if (empty()) return;
     for (std::uint32_t i = items.begin; i < items.end; ++i) begin_step(i);
   }
-  void end_step(Range items, double dt) {
-    if (empty()) return;
-    for (std::uint32_t i = items.begin; i < items.end; ++i) end_step(i, dt);
-  }
 
  private:
   static constexpr double not_known = std::numeric_limits<double>::quiet_NaN();

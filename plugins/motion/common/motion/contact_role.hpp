@@ -23,8 +23,6 @@ class ContactRole {
     *world_ = own_world_;
     *lag_ = own_lag_;
   }
-  /// Returns the world that the motion writes.
-  std::uint64_t own_world() const { return own_world_; }
   /// Returns the world at present: that of the motion that moves the robot. [step]
   std::uint64_t present_world() const { return *world_; }
 

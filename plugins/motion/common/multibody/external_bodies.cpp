@@ -21,7 +21,7 @@ void ExternalBodies::connect(Connector& c, const std::vector<bool>& own) {
     const Item& item = c.items()[i];
     left_out[index_of(item.robot->id)] = true;
     if (const auto original = c.constant(item.robot->base(), keys::shadow_of))  // both are in the same place
-      left_out[std::size_t(c.robot_of(*original))] = true;
+      if (const RobotId robot = c.robot_of(*original); robot != no_robot) left_out[index_of(robot)] = true;
   }
   for (std::uint32_t i = 0; i < c.object_count(); ++i) {
     const ObjectId object{i};

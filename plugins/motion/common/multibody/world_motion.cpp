@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "motion.hpp"
+#include "world_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
