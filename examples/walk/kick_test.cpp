@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "generated_humanoid_testing.hpp"
-#include "vectors.hpp"
 #include "walk_testing.hpp"
 
 namespace muro::walk_test {
