@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "../common/place.hpp"
 #include "muro_controller.hpp"
-#include "plane.hpp"
 
 namespace {
 
 using namespace muro::controller;
-using namespace mixed_team;
+using examples::Point;
 
 enum Input { targets, robots, told };
 enum Output { found, confirmed, wrong, error, time_found, time_confirmed };
@@ -84,7 +84,7 @@ class Judge {
   static Claim nearest_claim(std::span<const double> rows, const Point& p) {
     Claim best;
     for (std::size_t k = 0; k + 4 <= rows.size(); k += 4)
-      if (const double off = distance(p, {rows[k], rows[k + 1]}); rows[k + 2] != 0 && off < best.off)
+      if (const double off = distance(p, Point{rows[k], rows[k + 1]}); rows[k + 2] != 0 && off < best.off)
         best = {off, rows[k + 3] != 0};
     return best;
   }
@@ -93,13 +93,14 @@ class Judge {
     const auto poses = now.input(robots);
     double least = 1e9;
     for (std::size_t i = 0; i + 7 <= poses.size(); i += 7)
-      least = std::min(least, muro_hypot(distance({p[0], p[1]}, {poses[i], poses[i + 1]}), p[2] - poses[i + 2]));
+      least =
+          std::min(least, muro_hypot(distance(Point{p[0], p[1]}, Point{poses[i], poses[i + 1]}), p[2] - poses[i + 2]));
     return least;
   }
   static double nearest(std::span<const double> poses, const Point& p) {
     double least = 1e9;
     for (std::size_t i = 0; i + 7 <= poses.size(); i += 7)
-      least = std::min(least, distance(p, {poses[i], poses[i + 1]}));
+      least = std::min(least, distance(p, Point{poses[i], poses[i + 1]}));
     return least;
   }
 

@@ -5,9 +5,13 @@
 
 #include <span>
 
-#include "plane.hpp"
+#include "../common/angle.hpp"
+#include "../common/place.hpp"
 
 namespace mixed_team {
+
+using examples::Place;
+using examples::Point;
 
 class Locator {
  public:
@@ -15,13 +19,13 @@ class Locator {
   /// `odometry`: velocity in the axes of the base, or empty; `period`: s.
   void step(std::span<const double> fix, std::span<const double> velocity, std::span<const double> orientation,
             std::span<const double> odometry, double period) {
-    yaw_ = yaw_of(orientation);
+    yaw_ = examples::yaw_of(orientation);
     if (started_ == 0) {
       at_ = {fix[0], fix[1]}, height_ = fix[2];
       started_ = 1;
     } else {
       const Point rolled =
-          odometry.empty() ? Point{velocity[0], velocity[1]} : turned({odometry[0], odometry[1]}, yaw_);
+          odometry.empty() ? Point{velocity[0], velocity[1]} : turned(Point{odometry[0], odometry[1]}, yaw_);
       at_ = at_ + period * rolled;
       height_ += period * velocity[2];
       constexpr double trust = 0.3;  // share of the error that a new fix corrects
@@ -38,8 +42,8 @@ class Locator {
   double height() const { return height_; }  ///< m, above the origin of the map
   double yaw() const { return yaw_; }        ///< rad
   /// Converts a point from the axes of the robot to the map, and back.
-  Point to_map(const Point& p) const { return at_ + turned(p, yaw_); }
-  Point to_own(const Point& p) const { return turned(p - at_, -yaw_); }
+  Point to_map(const Point& p) const { return Place{at_, yaw_}.to_world(p); }
+  Point to_own(const Point& p) const { return Place{at_, yaw_}.to_own(p); }
 
  private:
   Point at_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "examples/common/repeat_testing.hpp"
 #include "mixed_team_testing.hpp"
 
 namespace muro::mixed_team_test {
@@ -36,18 +37,16 @@ TEST(Mission, WithoutACameraNothingIsFound) {
 
 TEST(Mission, EachKindOfRobotConfirmsTheCrateBeforeIt) {
   Mission m(crates_ahead());
+  const auto contacts = example_test::contacts_of(m.world(), *m.world().find_robot("walker"));
   double lowest = 1, bears = 0;
   int steps = 0;
   for (double t = 0; t < 8; t += 0.05) {
     m.run(0.05);
     lowest = t > 1 ? std::min(lowest, m.pose("walker").position.z()) : lowest;
-    for (const Link& link : m.world().find_robot("walker")->links) {
-      const std::string name(m.world().object_name(link.object));
-      const Slot* const slot = m.world().store().find(link.object, keys::contact_wrench.name);
-      const double force = slot ? static_cast<const Wrench*>(slot->place)->force.z() : 0;
-      const bool is_foot = name.size() > 5 && name.substr(name.size() - 5) == "_foot";
-      if (t > 1 && is_foot) bears += force;
-      EXPECT_TRUE(is_foot || force == 0) << name << " touches something";
+    for (const auto& contact : contacts) {
+      const double force = contact.wrench->force.z();
+      if (t > 1 && contact.is_foot()) bears += force;
+      EXPECT_TRUE(contact.is_foot() || force == 0) << contact.link << " touches something";
     }
     steps += t > 1;
   }
@@ -75,14 +74,7 @@ TEST(Mission, TheRefereeDoesNotBelieveWhoWasNotThere) {
 
 TEST(Mission, GoesOnFromASnapshotToTheSameBits) {
   Mission m(crates_ahead());
-  Simulation& s = m.simulation();
-  m.run(2.52);
-  const Snapshot middle = s.snapshot();
-  m.run(1);
-  const std::uint64_t end = s.state_hash();
-  s.restore(middle);
-  m.run(1);
-  EXPECT_EQ(s.state_hash(), end);
+  example_test::expect_same_bits_from_snapshot(m.simulation(), 2.52, 1);
 }
 
 TEST(SlowMission, AllCratesAreFoundAndConfirmed) {
@@ -113,13 +105,7 @@ TEST(SlowMission, AllCratesAreFoundAndConfirmed) {
 }
 
 TEST(SlowMission, ThreadsDoNotMatter) {
-  const auto hash = [](unsigned threads) {
-    Mission m({});
-    m.simulation().set_threads(threads);
-    m.run(25);
-    return m.simulation().state_hash();
-  };
-  EXPECT_EQ(hash(1), hash(3));
+  EXPECT_EQ(example_test::hash_on(1, scenario, {}, 25), example_test::hash_on(3, scenario, {}, 25));
 }
 
 TEST(SlowMission, TheWalkerDoesItsPartInEachEngine) {

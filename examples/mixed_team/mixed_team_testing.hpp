@@ -5,11 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "examples/common/robot_testing.hpp"
 #include "host/scenario/builder.hpp"
 #include "muro/vocabulary.hpp"
 #include "tests/support/scene.hpp"
 
 namespace muro::mixed_team_test {
+
+inline const std::string scenario = MURO_TEST_SOURCE_DIR "/examples/mixed_team/mixed_team.yaml";
 
 /// Robots on the ground, grouped by how they move.
 inline const std::vector<std::vector<std::string>> kinds = {
@@ -18,8 +21,7 @@ inline const std::vector<std::vector<std::string>> kinds = {
 class Mission {
  public:
   explicit Mission(const std::vector<std::string>& overrides)
-      : built_(host::build(host::read_scenario(MURO_TEST_SOURCE_DIR "/examples/mixed_team/mixed_team.yaml", overrides),
-                           test::plugins())) {}
+      : built_(host::build(host::read_scenario(scenario, overrides), test::plugins())) {}
 
   Simulation& simulation() { return *built_.simulation; }
   const World& world() { return built_.simulation->world(); }
@@ -27,15 +29,12 @@ class Mission {
 
   ObjectId base(const std::string& robot) { return world().find_robot(robot)->base(); }
   const Pose& pose(const std::string& robot) { return world().value(base(robot), keys::pose); }
-  /// Returns values that control code writes.
-  std::vector<double> told(ObjectId object, const std::string& name, const std::string& unit = "1") {
-    const auto values = world().values(object, Key<double>{name, unit, ""});
-    return {values.begin(), values.end()};
-  }
   double score(const std::string& name, const std::string& unit = "1") {
-    return told(world_object, "score." + name, unit)[0];
+    return example_test::values_of(world(), world_object, "score." + name, unit)[0];
   }
-  double confirmed_by(const std::string& robot) { return told(base(robot), "seek.confirmed")[0]; }
+  double confirmed_by(const std::string& robot) {
+    return example_test::values_of(world(), base(robot), "seek.confirmed")[0];
+  }
 
   struct Told {
     Eigen::Vector2d at;
@@ -44,7 +43,7 @@ class Mission {
   /// Returns the crates as the base station knows them.
   std::vector<Told> targets() {
     std::vector<Told> all;
-    const std::vector<double> rows = told(base("station"), "mission.targets", "m, m, 1, 1");
+    const std::vector<double> rows = example_test::values_of(world(), base("station"), "mission.targets", "m, m, 1, 1");
     for (std::size_t i = 0; i < rows.size(); i += 4)
       if (rows[i + 2] != 0) all.push_back({{rows[i], rows[i + 1]}, rows[i + 3] != 0});
     return all;

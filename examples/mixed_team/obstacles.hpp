@@ -3,32 +3,33 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 
-#include "plane.hpp"
+#include "../common/angle.hpp"
+#include "../common/limited_list.hpp"
+#include "../common/place.hpp"
 
 namespace mixed_team {
+
+using examples::Point;
+using examples::wrapped;
 
 class Obstacles {
  public:
   explicit Obstacles(double radius) : radius_(radius) {}  ///< m: radius of the robot as a disc
 
   /// Adds a disc. Discs beyond the capacity are left out.
-  void add(const Point& p, double radius) {
-    if (count_ < most) discs_[count_++] = {p, radius + radius_};
-  }
+  void add(const Point& p, double radius) { discs_.add({p, radius + radius_}); }
   /// Returns how far the robot gets straight on along a heading, m, at most `horizon`. A disc that it is already in
   /// stops it only if it would go deeper.
   double free_way(double heading, double horizon) const {
     double way = horizon;
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Point p = turned(discs_[i].at, -heading);
-      const double rest = discs_[i].radius * discs_[i].radius - p.y * p.y;
+    for (const Disc& disc : discs_.all()) {
+      const Point p = turned(disc.at, -heading);
+      const double rest = disc.radius * disc.radius - p.y * p.y;
       if (p.x <= 0 || rest <= 0) continue;
       const double reach = p.x - std::sqrt(rest);
-      if (reach < 0 && p.x < 0.4 * discs_[i].radius) continue;  // the disc is beside it
+      if (reach < 0 && p.x < 0.4 * disc.radius) continue;  // the disc is beside it
       way = std::min(way, std::max(0.0, reach));
     }
     return way;
@@ -60,10 +61,8 @@ class Obstacles {
     Point at;
     double radius = 0;
   };
-  static constexpr std::size_t most = 256;
   double radius_;
-  std::array<Disc, most> discs_;
-  std::size_t count_ = 0;
+  examples::LimitedList<Disc, 256> discs_;
 };
 
 }  // namespace mixed_team

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "../common/place.hpp"
+#include "../common/vector.hpp"
 #include "locator.hpp"
 #include "mates.hpp"
 #include "muro_controller.hpp"
@@ -130,7 +132,7 @@ class Seek {
   /// Returns the time to a target (s), with the turn towards it.
   double cost(const Step& now, const Target& t) const {
     const Point way = memory_.me.to_own(t.at);
-    return length(way) / now.tunable(speed) + std::abs(bearing(way)) / now.tunable(turn);
+    return way.norm() / now.tunable(speed) + std::abs(bearing(way)) / now.tunable(turn);
   }
 
   void choose(const Step& now) {
@@ -170,7 +172,7 @@ class Seek {
 
   void go(const Step& now, std::span<double> twist) {
     const Point way = memory_.me.to_own(target().at);
-    const double rest = length(way) - now.tunable(stop), wanted = bearing(way);
+    const double rest = way.norm() - now.tunable(stop), wanted = bearing(way);
     constexpr double ahead = 0.3;  // rad
     const bool is_there = rest < near_by;
     const double gain = 1.5, most = now.tunable(turn);
@@ -214,10 +216,9 @@ class Seek {
   bool is_echo(const Step& now, std::size_t i) const {
     const double range = now.input(ranges)[i];
     if (range <= 0 || range >= now.input(max_range)[0]) return false;
-    const auto q = now.input(orientation);
+    const auto up = examples::Rotation::of(now.input(orientation)).up();
     const double angle = now.input(min_angle)[0] + double(i) * now.input(increment)[0];
-    const double rise =
-        2 * (q[0] * q[2] - q[3] * q[1]) * muro_cos(angle) + 2 * (q[1] * q[2] + q[3] * q[0]) * muro_sin(angle);
+    const double rise = up.x * muro_cos(angle) + up.y * muro_sin(angle);
     return now.tunable(laser_z) + range * rise > 0.4 * now.tunable(laser_z);
   }
   Point echo(const Step& now, std::size_t i) const {

@@ -9,9 +9,13 @@
 #include <span>
 #include <vector>
 
-#include "plane.hpp"
+#include "../common/angle.hpp"
+#include "../common/place.hpp"
+#include "../common/vector.hpp"
 
 namespace mixed_team {
+
+using examples::Point;
 
 /// Connected pixels of the colour.
 struct Blob {
@@ -86,21 +90,13 @@ struct Camera {
   std::optional<Point> place(double u, double v, double below, std::span<const double> orientation) const {
     const double right = (u - cx) / fx, down = (v - cy) / fy;  // slopes of the ray against the axis
     const double c = muro_cos(pitch), s = muro_sin(pitch);
-    const double ray[] = {c - s * down, -right, -s - c * down}, at[] = {x, 0, z};
-    double r[3], p[3];
-    rotate(orientation, ray, r), rotate(orientation, at, p);
-    if (r[2] > -0.05 * std::sqrt(r[0] * r[0] + r[1] * r[1])) return std::nullopt;
-    const double along = (-below - p[2]) / r[2];
+    const auto base = examples::Rotation::of(orientation);
+    const auto ray = base * examples::Vector{c - s * down, -right, -s - c * down},
+               at = base * examples::Vector{x, 0, z};
+    if (ray.z > -0.05 * Point{ray.x, ray.y}.norm()) return std::nullopt;
+    const double along = (-below - at.z) / ray.z;
     if (along <= 0) return std::nullopt;
-    return turned({p[0] + along * r[0], p[1] + along * r[1]}, -yaw_of(orientation));
-  }
-
- private:
-  static void rotate(std::span<const double> q, const double (&v)[3], double (&to)[3]) {
-    const double a = q[0], b = q[1], c = q[2], w = q[3];
-    to[0] = (1 - 2 * (b * b + c * c)) * v[0] + 2 * (a * b - w * c) * v[1] + 2 * (a * c + w * b) * v[2];
-    to[1] = 2 * (a * b + w * c) * v[0] + (1 - 2 * (a * a + c * c)) * v[1] + 2 * (b * c - w * a) * v[2];
-    to[2] = 2 * (a * c - w * b) * v[0] + 2 * (b * c + w * a) * v[1] + (1 - 2 * (a * a + b * b)) * v[2];
+    return turned(Point{at.x + along * ray.x, at.y + along * ray.y}, -examples::yaw_of(orientation));
   }
 };
 

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <span>
 
+#include "../common/place.hpp"
 #include "muro_controller.hpp"
-#include "plane.hpp"
 
 namespace mixed_team {
+
+using examples::Point;
 
 constexpr std::size_t most_spots = 8, numbers_of_spot = 3, numbers_of_spots = 1 + numbers_of_spot * most_spots;
 /// Number of pictures so far; then for each spot in the last one: m forward and left of the base, level, and its number

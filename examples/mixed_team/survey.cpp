@@ -136,7 +136,7 @@ class Survey {
 
     constexpr double gain = 1.2;  // 1/s
     const Point way = memory_.me.to_own(goal);
-    const double far = std::max(length(way), 1e-9), fast = std::min(now.tunable(speed), gain * far);
+    const double far = std::max(way.norm(), 1e-9), fast = std::min(now.tunable(speed), gain * far);
     const auto twist = now.output(command);
     twist[0] = fast * way.x / far;
     twist[1] = fast * way.y / far;

@@ -8,9 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "plane.hpp"
+#include "../common/place.hpp"
 
 namespace mixed_team {
+
+using examples::Point;
 
 struct Target {
   Point at;                    ///< m: mean of the sightings

@@ -8,44 +8,35 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "../common/angle.hpp"
+#include "../common/vector.hpp"
 #include "muro_controller.hpp"
 #include "muro_elementary.h"  // sines and the like with equal bits on every machine
 
 namespace {
 
 using namespace muro::controller;
+using examples::Rotation;
+using examples::Vector;
+using examples::yaw_of;
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double scanner_x = 0.1, scanner_z = 0.33, ground_z = -0.09;  // m: in the frame of the vehicle
 constexpr double aside[] = {-0.45, -0.17, 0.17, 0.45};  // m: the ruts of the wheels, and a margin on either side
 constexpr double under_vehicle = 0.8;                   // m: area that the scanner cannot see
 
-struct Vector {
-  double x, y, z;
-};
-
 /// Rotation from the frame of the vehicle to a level frame with its heading.
-struct Levelling {
-  Vector rows[3];
+struct Level {
   double yaw;  // rad
+  Rotation rotation;
 
   /// `pose`: x y z of the position, x y z w of the quaternion.
-  explicit Levelling(std::span<const double> pose) {
-    const double x = pose[3], y = pose[4], z = pose[5], w = pose[6];
-    const Vector to_x{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)};
-    const Vector to_y{2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)};
-    yaw = muro_atan2(to_y.x, to_x.x);
-    const double c = muro_cos(yaw), s = muro_sin(yaw);
-    rows[0] = {c * to_x.x + s * to_y.x, c * to_x.y + s * to_y.y, c * to_x.z + s * to_y.z};
-    rows[1] = {c * to_y.x - s * to_x.x, c * to_y.y - s * to_x.y, c * to_y.z - s * to_x.z};
-    rows[2] = {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)};
-  }
-  Vector operator()(const Vector& v) const {
-    const auto along = [&](const Vector& row) { return row.x * v.x + row.y * v.y + row.z * v.z; };
-    return {along(rows[0]), along(rows[1]), along(rows[2])};
-  }
+  explicit Level(std::span<const double> pose)
+      : yaw(yaw_of(pose.last(4))), rotation(levelled(Rotation::of(pose.last(4)), yaw)) {}
+  Vector operator()(const Vector& v) const { return rotation * v; }
 };
 
 /// Mean height of the points that were seen in each cell around the vehicle.
@@ -102,7 +93,7 @@ class Cross {
   void step(const Step& now) {
     if (directions_.empty()) find_directions(now);
     const std::span<const double> pose = now.input(at_pose);
-    const Levelling level(pose);
+    const Level level(pose);
     see(now, level);
     const double to_x = now.tunable(goal_x) - pose[0];
     const double to_y = now.tunable(goal_y) + place_in_team_ * now.tunable(goal_spacing) - pose[1];
@@ -154,7 +145,7 @@ class Cross {
   }
 
   /// Fills the grid: the ground under the vehicle leans as the vehicle does; the scan shows the ground around it.
-  void see(const Step& now, const Levelling& level) {
+  void see(const Step& now, const Level& level) {
     grid_.clear();
     for (double x = -under_vehicle; x <= under_vehicle; x += 0.1)
       for (double y = -under_vehicle; y <= under_vehicle; y += 0.1) grid_.add(level({x, y, ground_z}));

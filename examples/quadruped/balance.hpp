@@ -6,10 +6,13 @@
 #include <array>
 #include <cmath>
 
+#include "../common/vector.hpp"
 #include "gait.hpp"
-#include "vector.hpp"
+#include "muro_elementary.h"
 
 namespace quadruped {
+
+using examples::Vector;
 
 /// Wrench of the feet on the body, level frame: N and, about the centre of mass, N m.
 struct BodyWrench {

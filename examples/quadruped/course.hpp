@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "../common/vector.hpp"
 #include "model.hpp"
 #include "placement.hpp"
-#include "vector.hpp"
 
 namespace quadruped {
 

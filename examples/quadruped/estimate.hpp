@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 
+#include "../common/vector.hpp"
 #include "gait.hpp"
-#include "vector.hpp"
 
 namespace quadruped {
+
+using examples::Vector;
 
 /// Middle of a foot, seen from the body, and velocity of its point of contact relative to the body: m, m/s, along the
 /// axes of a level frame with the heading of the body. The velocity is that in a frame that does not turn, so that a

@@ -11,12 +11,14 @@
 #include <string>
 #include <string_view>
 
+#include "../common/vector.hpp"
 #include "gait.hpp"
 #include "muro_controller.hpp"
-#include "vector.hpp"
 #include "words.hpp"
 
 namespace quadruped {
+
+using examples::Vector;
 
 inline constexpr int joints_of_leg = 3, joints = legs * joints_of_leg;
 

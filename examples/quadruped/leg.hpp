@@ -5,9 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vector.hpp"
+#include "../common/angle.hpp"
+#include "../common/two_bones.hpp"
+#include "../common/vector.hpp"
+#include "muro_elementary.h"
 
 namespace quadruped {
+
+using examples::Vector;
 
 /// Masses of thigh, shank and foot, kg, with their centres in the middle of thigh and shank and in the foot.
 struct LegMasses {
@@ -100,12 +105,10 @@ struct Leg {
     const double down = -std::sqrt(std::max(across, 1e-6));
     const double reach = thigh + shank, nearest = std::abs(thigh - shank);
     const double distance = std::clamp(std::sqrt(p.x * p.x + down * down), nearest + 1e-9, reach - 1e-9);
-    const double cosine = (distance * distance - thigh * thigh - shank * shank) / (2 * thigh * shank);
-    const double knee = bend * muro_acos(std::clamp(cosine, -1.0, 1.0));
-    const double straight = thigh + shank * muro_cos(knee), aside = shank * muro_sin(knee);
+    const examples::TwoBones bones{thigh, shank};
+    const double knee = bend * bones.bend_for(distance * distance);
     const double lifted = muro_atan2(p.z, p.y) - muro_atan2(down, abduction);
-    return {std::remainder(lifted, 2 * 3.14159265358979323846), muro_atan2(-p.x, -down) - muro_atan2(aside, straight),
-            knee};
+    return {examples::wrapped(lifted), muro_atan2(-p.x, -down) - bones.lead(knee), knee};
   }
 };
 

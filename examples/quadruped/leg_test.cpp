@@ -19,7 +19,6 @@ namespace {
 using quadruped::Leg;
 using quadruped::Vector;
 
-double length(const Vector& v) { return std::sqrt(dot(v, v)); }
 Vec3 eigen(const Vector& v) { return {v.x, v.y, v.z}; }
 
 /// Random legs, and angles that a leg can reach: bent in its direction, and not quite straight.
@@ -42,7 +41,7 @@ TEST(Leg, InverseKinematicsGoesBackToTheSameAngles) {
     const Leg leg = some.leg();
     const Vector q = some.angles(leg), p = leg.foot(q);
     if (leg.thigh * std::cos(q.y) + leg.shank * std::cos(q.y + q.z) < 0.02) continue;  // the foot is above its hip
-    EXPECT_LT(length(leg.angles(p) - q), 1e-9) << i;
+    EXPECT_LT((leg.angles(p) - q).norm(), 1e-9) << i;
   }
 }
 
@@ -56,22 +55,22 @@ TEST(Leg, JacobianIsTheDerivativeOfTheFoot) {
     const Vector steps[] = {{h, 0, 0}, {0, h, 0}, {0, 0, h}};
     for (int k = 0; k < 3; ++k) {
       const Vector difference = (0.5 / h) * (leg.foot(q + steps[k]) - leg.foot(q - steps[k]));
-      EXPECT_LT(length(difference - j.columns[k]), 1e-9) << i << ", " << k;
+      EXPECT_LT((difference - j.columns[k]).norm(), 1e-9) << i << ", " << k;
     }
     const Vector rates{0.3, -0.5, 0.7}, force{3, -4, 50};
     EXPECT_NEAR(dot(j * rates, force), dot(rates, j.efforts(force)), 1e-12) << "power";
-    EXPECT_LT(length(j.rates(j * rates, 0) - rates), 1e-9);
+    EXPECT_LT((j.rates(j * rates, 0) - rates).norm(), 1e-9);
   }
 }
 
 TEST(Leg, WhatIsOutOfReachIsDrawnNear) {
   const Leg leg{{}, 0.06, 0.2, 0.2, -1};
   const Vector far = leg.foot(leg.angles({0.3, 0.06, -0.6}));
-  EXPECT_NEAR(length(far - Vector{0, 0.06, 0}), 0.4, 1e-6);
+  EXPECT_NEAR((far - Vector{0, 0.06, 0}).norm(), 0.4, 1e-6);
   EXPECT_NEAR(far.x / far.z, -0.5, 1e-6) << "along the line from the hip";
   for (const Vector& p : {Vector{0, 0, 0}, Vector{0, 0.06, 0}, Vector{0, 0.01, 0.01}})
-    EXPECT_TRUE(std::isfinite(length(leg.angles(p))));
-  EXPECT_TRUE(std::isfinite(length(leg.jacobian({0, 0, 0}).rates({1, 1, 1}, 1e-4)))) << "a straight leg";
+    EXPECT_TRUE(std::isfinite(leg.angles(p).norm()));
+  EXPECT_TRUE(std::isfinite(leg.jacobian({0, 0, 0}).rates({1, 1, 1}, 1e-4).norm())) << "a straight leg";
 }
 
 /// Returns the feet of a model with joints at these positions, seen from the base, by the simulator.
@@ -172,15 +171,15 @@ TEST(Placement, PutsFeetWhereRaibertSays) {
   const quadruped::Placement rule{.gain = 0.05, .farthest = 0.2, .height = 0.3, .gravity = 9.81};
   const Vector hip{0.2, 0.1, 0};
   const Vector neutral = rule.target(hip, {0.5, -0.2, 0}, {0.5, -0.2, 0}, 0.2);
-  EXPECT_LT(length(neutral - Vector{0.25, 0.08, 0}), 1e-12) << "hip + v T / 2";
+  EXPECT_LT((neutral - Vector{0.25, 0.08, 0}).norm(), 1e-12) << "hip + v T / 2";
   const Vector fast = rule.target(hip, {0.7, 0, 0}, {0.5, 0, 0}, 0.2);
   EXPECT_NEAR(fast.x, 0.2 + 0.07 + 0.05 * 0.2, 1e-12);
   const Vector turned = rule.target(hip, {}, {0, 0, 1}, 0.2);
   EXPECT_LT(
-      length(turned - Vector{0.2 * std::cos(0.1) - 0.1 * std::sin(0.1), 0.2 * std::sin(0.1) + 0.1 * std::cos(0.1), 0}),
+      (turned - Vector{0.2 * std::cos(0.1) - 0.1 * std::sin(0.1), 0.2 * std::sin(0.1) + 0.1 * std::cos(0.1), 0}).norm(),
       1e-12);
   const Vector pushed = rule.target(hip, {5, 5, 0}, {}, 0.2);
-  EXPECT_NEAR(length(pushed - hip), 0.2, 1e-12);
+  EXPECT_NEAR((pushed - hip).norm(), 0.2, 1e-12);
 }
 
 TEST(Placement, ASwingingFootLeavesAndLandsAtTheSpeedOfTheGround) {
@@ -188,14 +187,14 @@ TEST(Placement, ASwingingFootLeavesAndLandsAtTheSpeedOfTheGround) {
   const Vector to{0.07, 0.12, -0.29}, ground{-0.5, 0.1, 0};
   for (const double end : {0.0, 1.0}) {
     const auto at = arc.at(end, to, ground);
-    EXPECT_LT(length(at.position - (end == 0 ? arc.from : to)), 1e-12);
-    EXPECT_LT(length(at.velocity - ground), 1e-12);
+    EXPECT_LT((at.position - (end == 0 ? arc.from : to)).norm(), 1e-12);
+    EXPECT_LT((at.velocity - ground).norm(), 1e-12);
   }
   EXPECT_NEAR(arc.at(0.5, to, ground).position.z, -0.295 + 0.06, 1e-12);
   for (double t = 0.05; t < 1; t += 0.1) {
     const Vector difference =
         (1 / (0.2 * 2e-6)) * (arc.at(t + 1e-6, to, ground).position - arc.at(t - 1e-6, to, ground).position);
-    EXPECT_LT(length(difference - arc.at(t, to, ground).velocity), 1e-6) << t;
+    EXPECT_LT((difference - arc.at(t, to, ground).velocity).norm(), 1e-6) << t;
   }
 }
 
@@ -225,7 +224,7 @@ TEST(Balance, FeetPushWithinTheirConesAndOnlyThoseThatStand) {
     const auto forces = share.share(wanted, stands, arms);
     for (std::size_t k = 0; k < 4; ++k) {
       if (!stands[k]) {
-        EXPECT_EQ(length(forces[k]), 0);
+        EXPECT_EQ(forces[k].norm(), 0);
         continue;
       }
       EXPECT_GE(forces[k].z, 5);

@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "../common/vector.hpp"
 #include "gait.hpp"
-#include "vector.hpp"
+#include "muro_elementary.h"
 
 namespace quadruped {
+
+using examples::Vector;
 
 /// Commanded motion in a level frame with the heading of the robot: m/s, m/s, rad/s.
 struct Command {
@@ -50,7 +54,7 @@ struct Arc {
 
   /// `progress` from 0 to 1; `to` in m; `ground`: velocity of the ground, m/s.
   Motion at(double progress, const Vector& to, const Vector& ground) const {
-    const double t = std::clamp(progress, 0.0, 1.0), pi = 3.14159265358979323846;
+    const double t = std::clamp(progress, 0.0, 1.0), pi = std::numbers::pi;
     const double h = t * t * (3 - 2 * t), dh = 6 * t * (1 - t);
     const double g = t * (1 - t) * (1 - 2 * t), dg = 1 - 6 * t + 6 * t * t;  // both ends have the slope 1
     const Vector way = to - from;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "examples/common/robot_testing.hpp"
 #include "host/scenario/builder.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "muro/vocabulary.hpp"
@@ -31,17 +32,9 @@ class Walk {
   Walk(const std::string& file, const std::vector<std::string>& overrides, const std::string& robot = "walker") {
     built_ = host::build(host::read_scenario(file, overrides), test::plugins(), [&](Simulation& s) {
       robot_ = s.world().find_robot(robot);
-      PropertyStore& store = s.world().store();
-      push_ = static_cast<Wrench*>(store.bind(store.add_accessor("the test"), robot_->base(), keys::external_wrench,
-                                              usage::accumulate, Multiplicity::single, 1, nullptr));
+      push_ = example_test::add_push(s.world(), *robot_);
     });
-    for (const Link& link : robot_->links) {
-      const std::string name(world().object_name(link.object));
-      const bool is_foot = name.size() > 5 && name.substr(name.size() - 5) == "_foot";
-      const Slot* const slot = world().store().find(link.object, keys::contact_wrench.name);
-      if (slot && !is_foot) others_.push_back({name, static_cast<const Wrench*>(slot->place)});
-      if (slot && is_foot) feet_.push_back(static_cast<const Wrench*>(slot->place));
-    }
+    contacts_ = example_test::contacts_of(world(), *robot_);
   }
   /// Returns overrides without the robots that the example is not about.
   static std::vector<std::string> alone(std::vector<std::string> more = {}) {
@@ -65,7 +58,7 @@ class Walk {
     for (int i = 0; i < steps; ++i) {
       run(0.005);
       std::size_t down = 0;
-      for (const Wrench* w : feet_) down += w->force.norm() > 1;
+      for (const auto& contact : contacts_) down += contact.is_foot() && contact.wrench->force.norm() > 1;
       counts[down] += 1.0 / steps;
     }
     return counts;
@@ -82,23 +75,18 @@ class Walk {
       const Slot* const told = world().store().find(robot_->base(), "trot.velocity");
       const auto* const v = static_cast<const double*>(told->place);
       seen.off = std::max(seen.off, std::hypot(v[0] - velocity().x(), v[1] - velocity().y()));
-      for (const auto& [name, wrench] : others_)
-        if (wrench->force.norm() > 0) seen.touched = name;
+      for (const auto& contact : contacts_)
+        if (!contact.is_foot() && contact.wrench->force.norm() > 0) seen.touched = contact.link;
     }
   }
 
   Seen seen;
 
  private:
-  struct Other {
-    std::string name;
-    const Wrench* wrench;
-  };
   host::BuiltScenario built_;
   const RobotView* robot_ = nullptr;
   Wrench* push_ = nullptr;
-  std::vector<Other> others_;
-  std::vector<const Wrench*> feet_;
+  std::vector<example_test::LinkContact> contacts_;
 };
 
 }  // namespace muro::quadruped_test

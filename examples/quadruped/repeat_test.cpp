@@ -2,33 +2,23 @@
 // Equal bits on any number of threads, from a snapshot and after a reset.
 #include <gtest/gtest.h>
 
+#include "examples/common/repeat_testing.hpp"
 #include "quadruped_testing.hpp"
 
 namespace muro::quadruped_test {
 namespace {
 
-TEST(Repeat, ThreadsDoNotMatter) {
-  const auto hash = [](unsigned threads) {
-    Walk walk(scenario, {});
-    walk.simulation().set_threads(threads);
-    walk.run(1);
-    return walk.simulation().state_hash();
-  };
-  EXPECT_EQ(hash(1), hash(3));
-}
+using example_test::expect_same_bits_from_snapshot;
+using example_test::hash_on;
+
+TEST(Repeat, ThreadsDoNotMatter) { EXPECT_EQ(hash_on(1, scenario, {}, 1), hash_on(3, scenario, {}, 1)); }
 
 TEST(Repeat, ASnapshotAndAResetGoOnAlike) {
   Walk walk(scenario, {});
   Simulation& s = walk.simulation();
-  walk.run(1.1);
-  const Snapshot middle = s.snapshot();
-  walk.run(0.5);
-  const std::uint64_t end = s.state_hash();
-  s.restore(middle);
-  walk.run(0.5);
-  EXPECT_EQ(s.state_hash(), end);
+  const std::uint64_t end = expect_same_bits_from_snapshot(s, 1.1, 0.5);
   s.reset();
-  walk.run(1.6);
+  s.run_for(1.6);
   EXPECT_EQ(s.state_hash(), end);
 }
 

@@ -5,10 +5,11 @@
 #include <array>
 #include <span>
 
+#include "../common/vector.hpp"
+#include "angles.hpp"
 #include "estimate.hpp"
 #include "leg.hpp"
 #include "model.hpp"
-#include "vector.hpp"
 
 namespace quadruped {
 
@@ -39,7 +40,7 @@ struct Sensed {
     rotation = level * turning;
     force = level * Vector{r.acceleration[0], r.acceleration[1], r.acceleration[2]};
     feels = !r.contact.empty();
-    const Vector below = level.back({0, 0, -model.foot_radius});
+    const Vector below = level.inverse() * Vector{0, 0, -model.foot_radius};
     for (int i = 0; i < legs; ++i) {
       const std::size_t at = std::size_t(i);
       const Leg& leg = model.leg[at];

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 
+#include "../common/vector.hpp"
 #include "gait.hpp"
 #include "sensed.hpp"
-#include "vector.hpp"
 
 namespace quadruped {
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "../common/angle.hpp"
+#include "../common/vector.hpp"
 #include "balance.hpp"
 #include "course.hpp"
 #include "estimate.hpp"
@@ -15,7 +17,6 @@
 #include "placement.hpp"
 #include "sensed.hpp"
 #include "stride.hpp"
-#include "vector.hpp"
 
 namespace quadruped {
 
@@ -127,7 +128,7 @@ class Trot {
       const Vector away = seen.feet[std::size_t(i)].position - model_.below_hip(i);
       push = push + (g.place / legs) * Vector{away.x, away.y, 0};
     }
-    const double yaw = std::clamp(std::remainder(s.course.heading - seen.attitude.yaw, 2 * pi), -most_yaw, most_yaw);
+    const double yaw = std::clamp(examples::wrapped(s.course.heading - seen.attitude.yaw), -most_yaw, most_yaw);
     return {model_.mass * push,
             {model_.inertia.x * (-g.attitude * seen.attitude.roll - g.rotation * w.x),
              model_.inertia.y * (-g.attitude * seen.attitude.pitch - g.rotation * w.y),
@@ -140,11 +141,12 @@ class Trot {
     for (std::size_t i = 0; i < legs; ++i) arms[i] = seen.feet[i].position + below - middle;
     const std::array<bool, legs> stands = state_.stride.stands();
     const std::array<Vector, legs> forces = model_.distribution.share(wanted_wrench(seen), stands, arms);
-    const Vector up = seen.level.back({0, 0, 1});
+    const Rotation to_body = seen.level.inverse();
+    const Vector up = to_body * Vector{0, 0, 1};
     for (int i = 0; i < legs; ++i) {
       const std::size_t at = std::size_t(i);
       const Vector weight = model_.leg[at].weight(seen.angles[at], model_.leg_masses, up, model_.gravity);
-      const Vector push = stands[at] ? seen.contacts[at].efforts(seen.level.back(-forces[at])) : swing_effort(seen, i);
+      const Vector push = stands[at] ? seen.contacts[at].efforts(to_body * -forces[at]) : swing_effort(seen, i);
       set_efforts(i, state_.has_fallen != 0 ? Vector{} : weight + push, now.output(efforts));
     }
   }
@@ -179,11 +181,12 @@ class Trot {
     const std::size_t at = std::size_t(i);
     const Leg& leg = model_.leg[at];
     const Motion way = way_of(seen, i);
-    const Vector missing = leg.angles(seen.level.back(way.position) - leg.hip) - seen.angles[at];
+    const Rotation to_body = seen.level.inverse();
+    const Vector missing = leg.angles(to_body * way.position - leg.hip) - seen.angles[at];
     // its velocity seen from the body, which turns
     const Vector moving = way.velocity + cross(Vector{0, 0, seen.rotation.z} - seen.rotation, way.position);
     const double least = stretched * leg.thigh * leg.thigh * leg.shank;
-    const Vector rates = seen.jacobians[at].rates(seen.level.back(moving), least), &is = seen.rates[at];
+    const Vector rates = seen.jacobians[at].rates(to_body * moving, least), &is = seen.rates[at];
     const auto effort = [&](double stiffness, double damping, double angle, double rate, double rate_now) {
       return stiffness * angle + damping * (std::clamp(rate, -model_.speed, model_.speed) - rate_now);
     };
@@ -200,7 +203,6 @@ class Trot {
     for (std::size_t i = 0; i < legs; ++i) now.output(told_stands)[i] = state_.stride.leg[i].touched;
   }
 
-  static constexpr double pi = 3.14159265358979323846;
   static constexpr double rest = 0.3;        // s: time before it trots
   static constexpr double push_speed = 0.3;  // m/s: a standing robot that is pushed steps from this speed on
   static constexpr double misplaced = 0.08;  // m: distance of a foot from its place, above which the robot steps

@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 
+#include "../common/vector.hpp"
 #include "gait.hpp"
 #include "model.hpp"
 #include "muro_controller.hpp"
 #include "placement.hpp"
-#include "vector.hpp"
 
 namespace quadruped {
 

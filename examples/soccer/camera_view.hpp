@@ -8,20 +8,13 @@
 #include <optional>
 #include <span>
 
+#include "../common/vector.hpp"
 #include "muro_elementary.h"
 
 namespace soccer {
 
-struct Vector {
-  double x = 0, y = 0, z = 0;
-
-  friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend Vector operator*(double s, const Vector& v) { return {s * v.x, s * v.y, s * v.z}; }
-  friend double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-  friend Vector cross(const Vector& a, const Vector& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-  }
-};
+using examples::Rotation;
+using examples::Vector;
 
 struct Pixel {
   double u = 0, v = 0;  ///< columns and rows, from the upper left corner
@@ -46,9 +39,8 @@ class CameraView {
   CameraView(const Lens& lens, const Head& head, double trunk_height, std::span<const double> orientation, double pan,
              double tilt)
       : lens_(lens) {
-    const double x = orientation[0], y = orientation[1], z = orientation[2], w = orientation[3];
-    const Vector up{2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)};
-    const Vector level = Vector{1, 0, 0} + (-up.x) * up;
+    const Vector up = Rotation::of(orientation).up();
+    const Vector level = Vector{1, 0, 0} - up.x * up;
     const Vector ahead = (1 / std::sqrt(dot(level, level))) * level, left = cross(up, ahead);
     const auto levelled = [&](const Vector& v) { return Vector{dot(v, ahead), dot(v, left), dot(v, up)}; };
     const double cp = muro_cos(pan), sp = muro_sin(pan), ct = muro_cos(tilt), st = muro_sin(tilt);
@@ -71,7 +63,7 @@ class CameraView {
   }
   /// Returns the pixel at which a point of the heading frame is seen; nothing behind the camera.
   std::optional<Pixel> pixel_of(const Vector& point) const {
-    const Vector d = point + (-1) * place_;
+    const Vector d = point - place_;
     const double depth = dot(d, forward_);
     if (depth < 0.01) return std::nullopt;
     return Pixel{lens_.cx - lens_.fx * dot(d, left_) / depth, lens_.cy - lens_.fy * dot(d, up_) / depth};
@@ -88,7 +80,7 @@ class CameraView {
   /// Whether the trunk is upright. In a fall or on the ground, the camera is not where this class assumes it.
   bool is_upright() const { return is_upright_; }
   /// Returns the depth of a point (m) along the axis of the camera.
-  double depth_of(const Vector& point) const { return dot(point + (-1) * place_, forward_); }
+  double depth_of(const Vector& point) const { return dot(point - place_, forward_); }
   const Lens& lens() const { return lens_; }
 
  private:

@@ -5,6 +5,7 @@
 // Thighs are bent forward by an angle and knees by twice as much, so that soles and trunk stay level. Hips and ankles
 // roll by opposite angles to shift the trunk sideways. The leg without weight is lifted by a further bend.
 #include <cmath>
+#include <numbers>
 
 #include "muro_controller.hpp"
 #include "muro_elementary.h"  // sines with equal bits on every machine
@@ -12,10 +13,10 @@
 namespace {
 
 using namespace muro::controller;
+using std::numbers::pi;
 
 constexpr double crouch = 0.4;  // rad, of the thigh
 constexpr double arm = 1.3;     // rad: arms hang down
-constexpr double pi = 3.14159265358979323846;
 
 enum Output { targets };
 enum Tunable { squat, sway, lift, period, phase, kick };

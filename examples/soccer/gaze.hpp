@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 
 #include "camera_view.hpp"
 
@@ -33,11 +34,10 @@ class Gaze {
     waited_ += seconds;
     if (waited_ < patience) return at_ball_;
     sweep_ += seconds / sweep_period;
-    return {sweep * muro_sin(2 * pi * sweep_), tilts[std::int64_t(sweep_) % 3]};
+    return {sweep * muro_sin(2 * std::numbers::pi * sweep_), tilts[std::int64_t(sweep_) % 3]};
   }
 
  private:
-  static constexpr double pi = 3.14159265358979323846;
   static constexpr double patience = 0.9;               ///< s: time to wait for the ball where it was
   static constexpr double sweep = 1.2;                  ///< rad: to each side, when it looks around
   static constexpr double sweep_period = 3;             ///< s

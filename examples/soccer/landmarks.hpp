@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 
-#include "place.hpp"
+#include "../common/place.hpp"
 
 namespace soccer {
+
+using examples::Point;
 
 struct Landmarks {
   double length = 8.95, width = 5.95;  ///< m: between the middles of goal lines, and of touch lines

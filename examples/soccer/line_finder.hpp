@@ -14,7 +14,7 @@ namespace soccer {
 class LineFinder {
  public:
   static constexpr std::size_t most = 16;
-  using Points = Finds<Vector, most>;
+  using Points = LimitedList<Vector, most>;
 
   /// Returns points on the middles of lines on the ground in the heading frame (m). `ball`, `players`: objects that are
   /// seen and are no lines.
@@ -41,7 +41,7 @@ class LineFinder {
   }
 
  private:
-  using Candidates = Finds<Vector, 96>;
+  using Candidates = LimitedList<Vector, 96>;
   static constexpr double farthest = 3.5;  ///< m
   static constexpr double nearest = 0.3;   ///< m
   static constexpr int contrast = 28;      ///< least brightness of a ridge above the grass on both sides, of 255
@@ -84,7 +84,7 @@ class LineFinder {
       const auto one = view.at_height({middle.u - half * scan.du, middle.v - half * scan.dv}, 0);
       const auto other = view.at_height({middle.u + half * scan.du, middle.v + half * scan.dv}, 0);
       if (!point || !one || !other) continue;
-      const Vector across = *one + (-1) * *other;
+      const Vector across = *one - *other;
       if (dot(across, across) < widest * widest) all.add(*point);
     }
   }

@@ -17,11 +17,15 @@
 #include <span>
 #include <utility>
 
+#include "../common/angle.hpp"
+#include "../common/place.hpp"
 #include "landmarks.hpp"
 #include "least_squares.hpp"
-#include "place.hpp"
 
 namespace soccer {
+
+using examples::Place;
+using examples::wrapped;
 
 class Localisation {
  public:

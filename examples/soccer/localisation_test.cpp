@@ -5,13 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <numbers>
 #include <random>
 #include <vector>
 
 namespace soccer {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
+
 const Landmarks field;
 
 /// Sights of a point with the errors of pictures: along the line of sight, and across it.
@@ -29,7 +31,7 @@ class Eye {
     std::vector<Point> all;
     for (const Point& post : field.posts()) {
       const Point own = me.to_own(post);
-      if (own.norm() < farthest && std::abs(wrapped(muro_atan2(own.y, own.x) - pan)) < 0.45) all.push_back(own);
+      if (own.norm() < farthest && std::abs(wrapped(bearing(own) - pan)) < 0.45) all.push_back(own);
     }
     std::sort(all.begin(), all.end(), [](const Point& a, const Point& b) { return a.x * b.y - a.y * b.x < 0; });
     for (Point& p : all) p = seen(p);
@@ -72,7 +74,7 @@ Errors walk(const std::function<void(double, const Place&, Localisation&)>& look
   for (int k = 0; k < 600; ++k) {
     const Point to = truth.to_own(way[next]);
     if (to.norm() < 0.2) next = (next + 1) % way.size();
-    const double turn = 0.2 * std::clamp(muro_atan2(to.y, to.x), -0.5, 0.5);
+    const double turn = 0.2 * std::clamp(bearing(to), -0.5, 0.5);
     const Point step{std::abs(turn) > 0.09 ? 0.005 : 0.03, 0};
     truth = {truth.to_world(step), wrapped(truth.yaw + turn)};
     l.move((1 / 1.15) * step, turn + 0.2 * 0.02);

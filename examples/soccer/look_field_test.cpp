@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "examples/common/robot_testing.hpp"
 #include "host/scenario/builder.hpp"
 #include "muro/vocabulary.hpp"
 #include "tests/support/files.hpp"
@@ -64,9 +65,8 @@ class Looks {
   }
   Simulation& simulation() { return *built_.simulation; }
   std::vector<double> told(const std::string& robot, const std::string& name, const std::string& unit) {
-    const auto values =
-        simulation().world().values(simulation().world().find_robot(robot)->base(), Key<double>{name, unit, ""});
-    return {values.begin(), values.end()};
+    const World& world = simulation().world();
+    return example_test::values_of(world, world.find_robot(robot)->base(), name, unit);
   }
   std::vector<double> posts(const std::string& robot) { return told(robot, "goal.seen", "1, m, m"); }
   std::vector<double> players(const std::string& robot) { return told(robot, "players.seen", "1, m, m, 1"); }

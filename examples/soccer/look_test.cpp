@@ -2,6 +2,7 @@
 // A humanoid among others looks for the ball by its camera; the true place of the ball is known.
 #include <gtest/gtest.h>
 
+#include "examples/common/robot_testing.hpp"
 #include "host/scenario/builder.hpp"
 #include "muro/vocabulary.hpp"
 #include "tests/support/files.hpp"
@@ -51,9 +52,7 @@ std::vector<double> seen_after(double seconds, const std::string& ball) {
   BuiltScenario built = build(read_scenario(folder.file("look.yaml", text), {}), test::plugins());
   Simulation& s = *built.simulation;
   s.run_for(seconds);
-  const auto told =
-      s.world().values(s.world().find_robot("player")->base(), Key<double>{"ball.seen", "1, m, m, s", ""});
-  return {told.begin(), told.end()};
+  return example_test::values_of(s.world(), s.world().find_robot("player")->base(), "ball.seen", "1, m, m, s");
 }
 
 TEST(Look, FindsTheBallWithinCentimetres) {

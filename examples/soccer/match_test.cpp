@@ -2,6 +2,8 @@
 // The match: a short one, and one without opponents that ends with a goal.
 #include <gtest/gtest.h>
 
+#include "examples/common/repeat_testing.hpp"
+#include "examples/common/robot_testing.hpp"
 #include "host/scenario/builder.hpp"
 #include "muro/vocabulary.hpp"
 #include "tests/support/scene.hpp"
@@ -9,11 +11,12 @@
 namespace muro::host {
 namespace {
 
+using example_test::hash_on;
+
 const std::string file = MURO_TEST_SOURCE_DIR "/examples/soccer/match.yaml";
 
 std::vector<double> told(const Simulation& s, const std::string& name) {
-  const auto values = s.world().values(world_object, Key<double>{name, "1", ""});
-  return {values.begin(), values.end()};
+  return example_test::values_of(s.world(), world_object, name);
 }
 
 /// Only the foremost players have cameras.
@@ -38,14 +41,7 @@ TEST(Match, ForwardsSeeTheBallAndOneGoesForIt) {
   }
 }
 
-std::uint64_t hash_of(const std::vector<std::string>& overrides, unsigned threads, double seconds) {
-  BuiltScenario built = build(read_scenario(file, overrides), test::plugins());
-  built.simulation->set_threads(threads);
-  built.simulation->run_for(seconds);
-  return built.simulation->state_hash();
-}
-
-TEST(Match, ThreadsDoNotMatter) { EXPECT_EQ(hash_of(two_cameras, 1, 4), hash_of(two_cameras, 3, 4)); }
+TEST(Match, ThreadsDoNotMatter) { EXPECT_EQ(hash_on(1, file, two_cameras, 4), hash_on(3, file, two_cameras, 4)); }
 
 /// A sphere that is pushed at v slides. Friction m slows it down and spins it up against the resistance to rolling, c =
 /// `rolling_resistance` / radius, until it rolls: g t (7/2 m - 5/2 c) = v. From then on a = 5/7 c g.
@@ -117,8 +113,8 @@ TEST(SlowMatch, AHalfEndsAfterKicksWithTheBallInTheField) {
 }
 
 TEST(SlowMatch, ThreadsDoNotMatterWithAllCameras) {
-  const std::uint64_t one = hash_of({}, 1, 15);
-  for (const unsigned threads : {2u, 3u}) EXPECT_EQ(hash_of({}, threads, 15), one) << threads;
+  const std::uint64_t one = hash_on(1, file, {}, 15);
+  for (const unsigned threads : {2u, 3u}) EXPECT_EQ(hash_on(threads, file, {}, 15), one) << threads;
 }
 
 TEST(SlowMatch, OneInAnEngineGoesForTheBallAsTheOthersDo) {

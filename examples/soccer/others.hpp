@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstddef>
 
-#include "place.hpp"
+#include "../common/place.hpp"
 
 namespace soccer {
+
+using examples::Point;
 
 /// Mates and opponents that were seen or reported a short time ago.
 class Others {

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../common/place.hpp"
+
 namespace soccer {
 
 enum Team { left, right, no_team };
 
-struct Spot {
-  double x = 0, y = 0;  ///< m
-};
+using examples::Point;
 
 struct Pitch {
   double length = 9, width = 6;  ///< m, to the middle of the lines
@@ -29,7 +29,7 @@ struct Pitch {
   bool is_out(double x, double y) const { return is_behind_goal_line(x) || std::abs(y) > 0.5 * width + ball_radius; }
   /// Returns where a ball that went out at (x, y) is put: a throw-in where it crossed the line; behind a goal line a
   /// corner, or the near corner of the goal area if the attacker or nobody touched it `last`.
-  Spot restart(double x, double y, Team last) const {
+  Point restart(double x, double y, Team last) const {
     if (!is_behind_goal_line(x)) return {std::clamp(x, -0.5 * length, 0.5 * length), std::copysign(0.5 * width, y)};
     const Team defender = x > 0 ? right : left;
     if (last == defender) return {std::copysign(0.5 * length, x), std::copysign(0.5 * width, y)};

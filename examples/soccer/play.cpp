@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "../common/angle.hpp"
+#include "../common/place.hpp"
 #include "localisation.hpp"
 #include "muro_controller.hpp"
 #include "muro_elementary.h"
@@ -141,8 +143,8 @@ class Play {
 
   /// Dead reckoning, with the way by the legs and the heading by the IMU; corrected by posts and lines.
   void reckon(const Step& now) {
-    const auto walked = now.input(odometry), q = now.input(orientation);
-    const double heading = muro_atan2(2 * (q[3] * q[2] + q[0] * q[1]), 1 - 2 * (q[1] * q[1] + q[2] * q[2]));
+    const auto walked = now.input(odometry);
+    const double heading = examples::yaw_of(now.input(orientation));
     const Place by_legs{{walked[0], walked[1]}, walked[2]};
     if (now.index() == 0) {
       memory_.self.start({{now.tunable(start_x), now.tunable(start_y)}, now.tunable(start_yaw)});

@@ -8,11 +8,13 @@
 #include <cstddef>
 #include <optional>
 
+#include "../common/limited_list.hpp"
 #include "camera_view.hpp"
-#include "finds.hpp"
 #include "image.hpp"
 
 namespace soccer {
+
+using examples::LimitedList;
 
 struct SeenPlayer {
   Vector feet;   ///< m, in the heading frame
@@ -21,7 +23,7 @@ struct SeenPlayer {
 
 class PlayerFinder {
  public:
-  using Players = Finds<SeenPlayer, 4>;
+  using Players = LimitedList<SeenPlayer, 4>;
 
   /// Returns the nearest players first. `ball`: a ball that is seen (m); it is dark, too, and lies at feet.
   Players find(const Image& image, const CameraView& view, const std::optional<Vector>& ball) {
@@ -127,7 +129,7 @@ class PlayerFinder {
   static void add(const SeenPlayer& player, Players& players) {
     constexpr double same = 0.3;  // m: nearer, it is an arm of a player that was found
     for (const SeenPlayer& other : players.all()) {
-      const Vector apart = player.feet + (-1) * other.feet;
+      const Vector apart = player.feet - other.feet;
       if (other.team == player.team && dot(apart, apart) < same * same) return;
     }
     players.add(player);

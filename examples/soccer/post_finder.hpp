@@ -8,22 +8,24 @@
 #include <optional>
 #include <utility>
 
+#include "../common/limited_list.hpp"
 #include "camera_view.hpp"
-#include "finds.hpp"
 #include "image.hpp"
 
 namespace soccer {
 
+using examples::LimitedList;
+
 class PostFinder {
  public:
-  using Posts = Finds<Vector, 2>;
+  using Posts = LimitedList<Vector, 2>;
 
   /// `radius`: m, radius of a post.
   explicit PostFinder(double radius) : radius_(radius) {}
 
   /// Returns the axes of posts on the ground in the heading frame (m); the left one first.
   Posts find(const Image& image, const CameraView& view) const {
-    Finds<Vector, 8> seen;
+    LimitedList<Vector, 8> seen;
     constexpr int row_step = 3;
     const int last = std::min(image.height() - 1, int(view.horizon(0.5 * image.width())) + 15);
     look_along(0, image, view, seen);
@@ -40,7 +42,7 @@ class PostFinder {
     double middle() const { return 0.5 * (left + right); }
   };
 
-  void look_along(int row, const Image& image, const CameraView& view, Finds<Vector, 8>& seen) const {
+  void look_along(int row, const Image& image, const CameraView& view, LimitedList<Vector, 8>& seen) const {
     for (int u = 0; u < image.width(); ++u) {
       if (image.color(u, row) != white) continue;
       int end = u;
@@ -51,7 +53,7 @@ class PostFinder {
       u = end;
     }
   }
-  static void add(const Vector& foot, Finds<Vector, 8>& seen) {
+  static void add(const Vector& foot, LimitedList<Vector, 8>& seen) {
     for (const Vector& other : seen.all())
       if (std::abs(foot.x - other.x) + std::abs(foot.y - other.y) < 0.5) return;
     seen.add(foot);
@@ -123,7 +125,7 @@ class PostFinder {
     return Stripe{double(left), double(right)};
   }
 
-  static Posts nearest_two(Finds<Vector, 8>& seen) {
+  static Posts nearest_two(LimitedList<Vector, 8>& seen) {
     const auto all = seen.all();
     std::sort(all.begin(), all.end(), [](const Vector& a, const Vector& b) { return dot(a, a) < dot(b, b); });
     Posts posts;
@@ -131,7 +133,7 @@ class PostFinder {
     for (const Vector& foot : all) {
       const auto known = posts.all();
       const bool is_frame = std::any_of(known.begin(), known.end(), [&](const Vector& other) {
-        const Vector d = foot + (-1) * other;
+        const Vector d = foot - other;
         return dot(d, d) < apart * apart;
       });
       if (!is_frame) posts.add(foot);

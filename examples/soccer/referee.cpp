@@ -4,7 +4,9 @@
 // world object, `match.*`, which players may read and recorder.report puts into the report.
 #include <array>
 #include <cstdint>
+#include <span>
 
+#include "../common/vector.hpp"
 #include "falls.hpp"
 #include "muro_controller.hpp"
 #include "pitch.hpp"
@@ -28,8 +30,8 @@ struct Match {
   std::array<std::int64_t, 2> score{}, falls{};
   std::int64_t outs = 0, state = plays, placements = 0, tries = 0, last_touch = no_team;
   double restart_time = 0;    // s: time at which the ball is put on its spot
-  Spot spot;                  // spot of the ball
-  Spot rest;                  // place of the ball when it began to rest
+  Point spot;                 // spot of the ball
+  Point rest;                 // place of the ball when it began to rest
   double rest_time = 0;       // s: time at which it began to rest
   std::int64_t kick_off = 0;  // 1: the left team has it, -1: the right team, 0: the ball is in play
   double kick_off_time = 0;   // s: time at which the ball was put on the centre mark for it
@@ -40,8 +42,8 @@ struct Player {
   double x, y, up;
 };
 Player player_of(std::span<const double> poses, std::size_t i) {
-  const double* const p = poses.data() + 7 * i;  // x y z qx qy qz qw
-  return {p[0], p[1], 1 - 2 * (p[3] * p[3] + p[4] * p[4])};
+  const std::span<const double> p = poses.subspan(7 * i, 7);  // x y z qx qy qz qw
+  return {p[0], p[1], examples::Rotation::of(p.last(4)).up().z};
 }
 
 class Referee {
@@ -138,7 +140,7 @@ class Referee {
     }
   }
 
-  void stop_for(const Step& now, const Spot& spot) {
+  void stop_for(const Step& now, const Point& spot) {
     match_.state = waits_for_ball;
     match_.spot = spot;
     match_.restart_time = now.time() + now.tunable(pause);

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "core/instance.hpp"
+#include "examples/common/repeat_testing.hpp"
+#include "examples/common/robot_testing.hpp"
 #include "host/scenario/builder.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "muro/vocabulary.hpp"
@@ -48,10 +50,7 @@ struct Match {
            "    outputs: [\"place.pose=ball/body:place.pose\", \"place.twist=ball/body:place.twist\",\n"
            "      \"place.count=ball/body:place.count\"]\n";
   }
-  std::vector<double> told(const std::string& name) {
-    const std::span<const double> values = s.world().values(world_object, Key<double>{name, "1", ""});
-    return {values.begin(), values.end()};
-  }
+  std::vector<double> told(const std::string& name) { return example_test::values_of(s.world(), world_object, name); }
   Vec3 ball() { return s.world().value("ball/body", keys::pose).position; }
 };
 
@@ -174,13 +173,7 @@ TEST(Referee, FreesABallThatIsStuckAndEndsTheHalf) {
 
 TEST(Referee, GoesOnFromASnapshotToTheSameBits) {
   Match m("at: {x: 4.2, y: 0.5}, velocity: [2, 0, 0]");
-  m.s.run_for(0.7);
-  const Snapshot in_pause = m.s.snapshot();
-  m.s.run_for(1);
-  const std::uint64_t end = m.s.state_hash();
-  m.s.restore(in_pause);
-  m.s.run_for(1);
-  EXPECT_EQ(m.s.state_hash(), end);
+  example_test::expect_same_bits_from_snapshot(m.s, 0.7, 1);  // in the pause
   EXPECT_LT(m.ball().head<2>().norm(), 1e-3);
 }
 

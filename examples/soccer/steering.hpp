@@ -5,10 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../common/angle.hpp"
+#include "../common/place.hpp"
 #include "others.hpp"
-#include "place.hpp"
 
 namespace soccer {
+
+using examples::Place;
+using examples::wrapped;
+
+/// `walk.command`: forward, to the left (m/s), turn (rad/s).
+struct Command {
+  double x = 0, y = 0, turn = 0;
+};
 
 class Steering {
  public:
@@ -44,7 +53,7 @@ class Steering {
   /// Turns on the spot.
   Command turn() const { return {0, 0, pace_.turn}; }
   Command back() const { return {-0.4 * pace_.forward, 0, 0}; }
-  double heading_to(const Point& p) const { return muro_atan2(p.y - me_.at.y, p.x - me_.at.x); }
+  double heading_to(const Point& p) const { return bearing(p - me_.at); }
 
  private:
   static constexpr double near_by = 0.3;  ///< m

@@ -76,7 +76,7 @@ class Striker {
     const auto angle_to = [&](double y) {
       return muro_atan2(y - ball.y, s.attack * std::max(0.2, std::abs(line - ball.x)));
     };
-    const double middle = angle_to(0), from_here = muro_atan2(ball.y - me.at.y, ball.x - me.at.x);
+    const double middle = angle_to(0), from_here = bearing(ball - me.at);
     const double wide = std::abs(line - ball.x) > far ? careless : 0;
     const double one = wrapped(angle_to(mouth) - middle), other = wrapped(angle_to(-mouth) - middle);
     return middle + std::clamp(wrapped(from_here - middle), std::min(one, other) - wide, std::max(one, other) + wide);

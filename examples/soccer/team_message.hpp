@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <span>
 
-#include "place.hpp"
+#include "../common/place.hpp"
 
 namespace soccer {
+
+using examples::Point;
 
 /// Activity of a player. The others leave the ball to a player that goes for it.
 enum Role : std::int64_t { waits, searches, goes_for_ball, keeps_place };

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "vectors.hpp"
+#include "frame.hpp"
+#include "pendulum.hpp"
 
 namespace walking {
 
@@ -17,12 +18,12 @@ class Attitude {
   /// 1/s: rate at which the filter follows the accelerometer.
   void update(const Vector& rate, const Vector& force, double gain, double h) {
     rate_ = rate - rate_bias_;
-    const Vector f = (force - force_bias_) * (1 / gravity);
-    if (!begun_ && f.norm() > 0.5) up_ = f * (1 / f.norm()), begun_ = 1;
+    const Vector f = (1 / gravity) * (force - force_bias_);
+    if (!begun_ && f.norm() > 0.5) up_ = (1 / f.norm()) * f, begun_ = 1;
     if (!begun_) return;
     // up is fixed in the world, and the mean specific force points along it; its component along up is no information
-    up_ = up_ + up_.cross(rate_) * h + (f - up_ * up_.dot(f)) * (gain * h);
-    up_ = up_ * (1 / up_.norm());
+    up_ = up_ + h * cross(up_, rate_) + (gain * h) * (f - dot(up_, f) * up_);
+    up_ = (1 / up_.norm()) * up_;
     const double level = std::sqrt(up_.y * up_.y + up_.z * up_.z);
     if (level > 0.3) yaw_ += h * (rate_.y * up_.y + rate_.z * up_.z) / (level * level);
   }
@@ -30,8 +31,8 @@ class Attitude {
   /// means of the errors of the sensors.
   void calibrate(const Vector& rate, const Vector& force, const Vector& up) {
     const double part = 1 / double(++still_readings_);
-    rate_bias_ = rate_bias_ + (rate - rate_bias_) * part;
-    force_bias_ = force_bias_ + (force - up * gravity - force_bias_) * part;
+    rate_bias_ = rate_bias_ + part * (rate - rate_bias_);
+    force_bias_ = force_bias_ + part * (force - gravity * up - force_bias_);
     up_ = up, begun_ = 1, yaw_ = 0;
   }
 

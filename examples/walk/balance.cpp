@@ -21,7 +21,7 @@ double Balance::astray(const Reference& now, double w, const Body& body, const A
   if (now.both) {
     const Foothold& o = now.soles[other(stance)].at;
     ground = {0.5 * (ground.x + o.x), 0.5 * (ground.y + o.y), ground.yaw};
-    foot = (foot + soles[other(stance)].origin) * 0.5;
+    foot = 0.5 * (foot + soles[other(stance)].origin);
   }
   const Vector com = body.com(soles[left_side].origin, soles[right_side].origin);
   const Vector from_foot = attitude.tilt() * (com - foot);

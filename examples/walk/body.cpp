@@ -7,7 +7,7 @@ namespace walking {
 
 Vector Body::fixed_part() const {
   const Vector hips{d_.leg.hip.x, 0, d_.leg.hip.z};
-  return d_.upper_com * trunk_share() + hips * (2 * d_.leg_mass * (1 - d_.leg_com));
+  return trunk_share() * d_.upper_com + (2 * d_.leg_mass * (1 - d_.leg_com)) * hips;
 }
 
 double Body::com_height(double trunk_height) const {
@@ -15,7 +15,7 @@ double Body::com_height(double trunk_height) const {
 }
 
 Vector Body::com(const Vector& left_sole, const Vector& right_sole) const {
-  return fixed_part() + (left_sole + right_sole) * (d_.leg_mass * d_.leg_com);
+  return fixed_part() + (d_.leg_mass * d_.leg_com) * (left_sole + right_sole);
 }
 
 Frame Body::trunk_for(const Reference& now, double trunk_height, double lean) const {
@@ -45,14 +45,15 @@ BothLegs Body::sag(const Reference& now, const Frame& trunk, const BothLegs& ang
   const Vector accelerated{now.acceleration_x, now.acceleration_y, gravity};
   const Vector weight = to_trunk * Vector{0, 0, -gravity * d_.mass * d_.leg_mass};
   for (const Side side : {left_side, right_side}) {
-    const Vector force = to_trunk * accelerated * (d_.mass * (side == left_side ? now.left_share : 1 - now.left_share));
+    const double carried = d_.mass * (side == left_side ? now.left_share : 1 - now.left_share);
+    const Vector force = carried * (to_trunk * accelerated);
     const Vector sole = legs_[side].sole_at(angles[side]).origin;
     const auto axes = legs_[side].axes_at(angles[side]);
-    const Vector mass_at = axes[hip_yaw].origin * (1 - d_.leg_com) + sole * d_.leg_com;
+    const Vector mass_at = (1 - d_.leg_com) * axes[hip_yaw].origin + d_.leg_com * sole;
     for (std::size_t j = 0; j < leg_joints; ++j) {
-      Vector moment = (sole - axes[j].origin).cross(force);
-      if (j <= hip_pitch) moment = moment + (mass_at - axes[j].origin).cross(weight);
-      lead[side][j] = -axes[j].axis.dot(moment) / d_.stiffness;
+      Vector moment = cross(sole - axes[j].origin, force);
+      if (j <= hip_pitch) moment = moment + cross(mass_at - axes[j].origin, weight);
+      lead[side][j] = -dot(axes[j].axis, moment) / d_.stiffness;
     }
   }
   return lead;

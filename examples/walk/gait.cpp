@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "vectors.hpp"
+#include <numbers>
 
 namespace walking {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 double bounded(double x, double most) { return std::clamp(x, -most, most); }
 
@@ -148,7 +145,7 @@ double Gait::swing_part(const GaitSettings& g) const {
 
 double Gait::lift(const GaitSettings& g) const {
   if (phase_ != stepping) return 0;
-  const double s = muro_sin(pi * swing_part(g));
+  const double s = muro_sin(std::numbers::pi * swing_part(g));
   return s * s;
 }
 

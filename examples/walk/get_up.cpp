@@ -26,7 +26,7 @@ constexpr double sideways = 1.5707963267948966;  // rad, of shoulder roll from a
 
 }  // namespace
 
-GetUp::GetUp(const Settings& s) : thigh_(s.body.leg.thigh), shin_(s.body.leg.shin) {}
+GetUp::GetUp(const Settings& s) : bones_{s.body.leg.thigh, s.body.leg.shin} {}
 
 std::span<const KeyPose> GetUp::poses_of(const Progress& progress) {
   return progress.on_back ? std::span<const KeyPose>(from_back) : std::span<const KeyPose>(from_belly);
@@ -44,10 +44,9 @@ Posture GetUp::straight() const { return posture_of({0, 1, 0, 0, 0, along}); }
 
 /// Puts the knee ahead of the line from hip to ankle.
 Posture GetUp::posture_of(const KeyPose& pose) const {
-  const double d = pose.ankle_distance * (thigh_ + shin_);
-  const double bend =
-      muro_acos(std::clamp((d * d - thigh_ * thigh_ - shin_ * shin_) / (2 * thigh_ * shin_), -1.0, 1.0));
-  const double hip = pose.ankle_way - muro_atan2(shin_ * muro_sin(bend), thigh_ + shin_ * muro_cos(bend));
+  const double d = pose.ankle_distance * (bones_.upper + bones_.lower);
+  const double bend = bones_.bend_for(d * d);
+  const double hip = pose.ankle_way - bones_.lead(bend);
   Posture all;
   all.legs[left_side] = {0, 0, hip, bend, pose.sole_pitch - hip - bend, 0};
   all.legs[right_side] = all.legs[left_side];

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "../common/two_bones.hpp"
 #include "settings.hpp"
 
 namespace walking {
@@ -44,7 +45,7 @@ class GetUp {
   static std::span<const KeyPose> poses_of(const Progress& progress);
   Posture posture_of(const KeyPose& pose) const;
 
-  double thigh_, shin_;
+  examples::TwoBones bones_;  // thigh and shin
 };
 
 }  // namespace walking

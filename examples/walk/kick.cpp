@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "vectors.hpp"
-
 namespace walking {
 namespace {
 

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "examples/common/repeat_testing.hpp"
 #include "generated_humanoid_testing.hpp"
-#include "vectors.hpp"
 #include "walk_testing.hpp"
 
 namespace muro::walk_test {
@@ -139,14 +139,7 @@ TEST(Kick, InTheMiddleOfAWalkEndsTheWalkFirst) {
 
 TEST(Kick, GoesOnFromASnapshotToTheSameBits) {
   Walker walker(scene_of({}));
-  Simulation& s = walker.simulation();
-  walker.run(3.8);
-  const Snapshot middle = s.snapshot();
-  walker.run(1);
-  const std::uint64_t end = s.state_hash();
-  s.restore(middle);
-  walker.run(1);
-  EXPECT_EQ(s.state_hash(), end);
+  example_test::expect_same_bits_from_snapshot(walker.simulation(), 3.8, 1);
 }
 
 TEST(Kick, SlowFromWhereverTheBallLiesBeforeTheFoot) {

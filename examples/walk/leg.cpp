@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "../common/two_bones.hpp"
+
 namespace walking {
 namespace {
 
@@ -64,12 +66,9 @@ LegAngles Leg::angles_for(const Frame& sole) const {
   const Vector hip_at = hip + roll * Vector{d_.hip_pitch_x, side_ * d_.leg_y, d_.hip_pitch_z};
   const Vector down = roll.inverse() * (roll_axis + ankle * Vector{0, 0, d_.ankle_z} - hip_at);
   const Bone thigh = bone_of(d_.knee_x, d_.thigh), shin = bone_of(d_.ankle_x, d_.shin);
-  const double reach2 = down.x * down.x + down.z * down.z;
-  const double cosine =
-      (reach2 - thigh.length * thigh.length - shin.length * shin.length) / (2 * thigh.length * shin.length);
-  const double bend = muro_acos(std::clamp(cosine, -1.0, 1.0));
-  const double hang = muro_atan2(-down.x, -down.z);
-  const double first = hang - muro_atan2(shin.length * muro_sin(bend), thigh.length + shin.length * muro_cos(bend));
+  const examples::TwoBones bones{thigh.length, shin.length};
+  const double bend = bones.bend_for(down.x * down.x + down.z * down.z);
+  const double first = muro_atan2(-down.x, -down.z) - bones.lead(bend);
   q[hip_pitch] = first - thigh.pitch;
   q[knee] = bend - shin.pitch + thigh.pitch;
   q[ankle_pitch] = pitch - q[hip_pitch] - q[knee];

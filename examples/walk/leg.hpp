@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "vectors.hpp"
+#include "frame.hpp"
 
 namespace walking {
 

@@ -2,6 +2,7 @@
 // Steers a robot that walks by the library `walk`, as the code of a soccer player would: straight on, a quarter turn to
 // the left, and so on. It writes `walk.command`, a property of its own that `walk` reads.
 #include <cmath>
+#include <numbers>
 
 #include "muro_controller.hpp"
 
@@ -25,7 +26,7 @@ class Patrol {
   explicit Patrol(const Setup&) {}
 
   void step(const Step& now) {
-    const double quarter = 0.5 * 3.14159265358979323846 / now.tunable(turn);
+    const double quarter = 0.5 * std::numbers::pi / now.tunable(turn);
     const double part = std::fmod(time_, now.tunable(straight) + quarter);
     const bool turns = part >= now.tunable(straight);
     now.output(0)[0] = turns ? 0 : now.tunable(speed);

@@ -11,6 +11,8 @@
 
 namespace walking {
 
+inline constexpr double gravity = 9.81;  // m/s^2
+
 struct Pendulum {
   double position = 0, velocity = 0;  ///< m, m/s
 

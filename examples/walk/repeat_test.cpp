@@ -2,33 +2,23 @@
 // Equal bits on any number of threads, from a snapshot and after a reset.
 #include <gtest/gtest.h>
 
+#include "examples/common/repeat_testing.hpp"
 #include "walk_testing.hpp"
 
 namespace muro::walk_test {
 namespace {
 
-TEST(Repeat, ThreadsDoNotMatter) {
-  const auto hash = [](unsigned threads) {
-    host::BuiltScenario built = host::build(host::read_scenario(scenario, {}), test::plugins());
-    built.simulation->set_threads(threads);
-    built.simulation->run_for(4);
-    return built.simulation->state_hash();
-  };
-  EXPECT_EQ(hash(1), hash(3));
-}
+using example_test::expect_same_bits_from_snapshot;
+using example_test::hash_on;
+
+TEST(Repeat, ThreadsDoNotMatter) { EXPECT_EQ(hash_on(1, scenario, {}, 4), hash_on(3, scenario, {}, 4)); }
 
 TEST(Repeat, ASnapshotAndAResetGoOnAlike) {
   Walker walker;
   Simulation& s = walker.simulation();
-  walker.run(4);
-  const Snapshot middle = s.snapshot();
-  walker.run(1);
-  const std::uint64_t end = s.state_hash();
-  s.restore(middle);
-  walker.run(1);
-  EXPECT_EQ(s.state_hash(), end);
+  const std::uint64_t end = expect_same_bits_from_snapshot(s, 4, 1);
   s.reset();
-  walker.run(5);
+  s.run_for(5);
   EXPECT_EQ(s.state_hash(), end);
 }
 

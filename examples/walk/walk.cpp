@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "../common/angle.hpp"
 #include "attitude.hpp"
 #include "balance.hpp"
 #include "body.hpp"
@@ -224,7 +225,7 @@ class Walk {
       return wanted;
     }
     state_.heading += h * wanted.turn;
-    const double off = std::remainder(state_.heading - state_.attitude.yaw(), 2 * M_PI);
+    const double off = examples::wrapped(state_.heading - state_.attitude.yaw());
     wanted.turn += std::clamp(s_.heading * off, -0.3, 0.3);
     return wanted;
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "examples/common/robot_testing.hpp"
 #include "host/scenario/builder.hpp"
 #include "muro/toolkit/rotations.hpp"
 #include "muro/vocabulary.hpp"
@@ -27,16 +28,9 @@ class Walker {
       overrides.insert(overrides.begin(), {"robots.square=off", "robots.sideways=off", "robots.lying=off"});
     built_ = host::build(host::read_scenario(file, overrides), test::plugins(), [&](Simulation& s) {
       robot_ = s.world().find_robot("walker");
-      PropertyStore& store = s.world().store();
-      push_ = static_cast<Wrench*>(store.bind(store.add_accessor("the test"), robot_->base(), keys::external_wrench,
-                                              usage::accumulate, Multiplicity::single, 1, nullptr));
+      push_ = example_test::add_push(s.world(), *robot_);
     });
-    for (const Link& link : robot_->links) {
-      const std::string name(world().object_name(link.object));
-      const bool is_foot = name.find("foot") != name.npos;
-      const Slot* const slot = world().store().find(link.object, keys::contact_wrench.name);
-      if (slot) (is_foot ? feet_ : others_).push_back({name, static_cast<const Wrench*>(slot->place)});
-    }
+    contacts_ = example_test::contacts_of(world(), *robot_);
     least_height_ = pose().position.z();
   }
 
@@ -62,10 +56,13 @@ class Walker {
       built_.simulation->run_for(0.008);
       least_height_ = std::min(least_height_, pose().position.z());
       least_upright_ = std::min(least_upright_, upright());
-      for (const auto& [name, wrench] : others_)
-        if (touched_.empty() && !wrench->force.isZero()) touched_ = name;
       int down = 0;
-      for (const auto& [name, wrench] : feet_) down += wrench->force.z() > 0.3;
+      for (const auto& contact : contacts_) {
+        if (contact.is_foot())
+          down += contact.wrench->force.z() > 0.3;
+        else if (touched_.empty() && !contact.wrench->force.isZero())
+          touched_ = contact.link;
+      }
       ++feet_down_[std::size_t(down)];
     }
   }
@@ -80,7 +77,7 @@ class Walker {
   host::BuiltScenario built_;
   const RobotView* robot_ = nullptr;
   Wrench* push_ = nullptr;
-  std::vector<std::pair<std::string, const Wrench*>> feet_, others_;
+  std::vector<example_test::LinkContact> contacts_;
   double least_height_ = 0, least_upright_ = 1;
   std::string touched_;
   std::array<int, 3> feet_down_{};

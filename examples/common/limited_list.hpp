@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <span>
 
-namespace soccer {
+namespace examples {
 
-/// Objects that were found, at most `most`.
+/// Holds at most `most` things. Further ones are left out.
 template <class T, std::size_t most>
-class Finds {
+class LimitedList {
  public:
   std::span<const T> all() const { return {things_.data(), count_}; }
   std::span<T> all() { return {things_.data(), count_}; }
@@ -26,4 +26,4 @@ class Finds {
   std::size_t count_ = 0;
 };
 
-}  // namespace soccer
+}  // namespace examples
