@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
 
 #include "core/error.hpp"
 #include "muro/base/random.hpp"
@@ -75,6 +76,7 @@ std::shared_ptr<const Callee> Instance::make_callee() const {
 /// Messages of the set-up name the robot when there are several and the algorithm has noted one.
 void Instance::require(bool fine, const abi::ErrorText& error, const char* doing) const {
   if (fine) return;
+  if (error.view() == std::bad_alloc().what()) throw std::bad_alloc();  // a lack of memory is the scene's matter
   const RunningCall& call = running_call();
   const bool noted = callee_->items.size() > 1 && call.note.item.load() < callee_->items.size();
   const std::string about =
