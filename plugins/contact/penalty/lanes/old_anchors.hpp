@@ -3,7 +3,7 @@
 #pragma once
 
 #include "muro/simd/rows.hpp"
-#include "scenery_kernel.hpp"
+#include "plugins/contact/penalty/scenery_kernel.hpp"
 
 namespace muro::penalty::law {
 inline namespace MURO_ISA {
