@@ -60,7 +60,7 @@ struct Parameter {  // without `length` and `choices`
 struct PropertyUse {  // without `when`
   std::string_view key, doc;
 };
-struct Phase {  // without `fine_grained` and `enabled`
+struct alignas(8) Phase {  // without `fine_grained` and `enabled`
   std::uint8_t index_space, scope;
 };
 struct Step {  // without `phase`

@@ -14,7 +14,8 @@
 namespace muro {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity(), none = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity(),
+                 not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// 1 ulp, with the error of the long double that it is compared with.
 constexpr double one_unit = 1.001;
@@ -122,7 +123,8 @@ bool same(double a, double b) {
 }
 
 TEST(ElementaryFunctions, HaveTheSpecialValuesOfTheCLibrary) {
-  const double special[] = {0.0, -0.0, 1, -1, infinity, -infinity, none, 1e150, -1e150, 5e-324, -5e-324, 1000, -1000};
+  const double special[] = {0.0,   -0.0,   1,      -1,      infinity, -infinity, not_a_number,
+                            1e150, -1e150, 5e-324, -5e-324, 1000,     -1000};
   const std::function<double(double)> theirs[] = {
       [](double x) { return std::sin(x); },   [](double x) { return std::cos(x); },
       [](double x) { return std::tan(x); },   [](double x) { return std::asin(x); },
@@ -146,8 +148,8 @@ TEST(ElementaryFunctions, HaveTheSpecialValuesOfTheCLibrary) {
 }
 
 TEST(ElementaryFunctions, OfTwoNumbersHaveTheSpecialValuesOfC) {
-  for (const double x : {0.0, -0.0, 1.0, -1.0, 2.5, -3.0, infinity, -infinity, none})
-    for (const double y : {0.0, -0.0, 1.0, -1.0, 2.5, -3.0, infinity, -infinity, none}) {
+  for (const double x : {0.0, -0.0, 1.0, -1.0, 2.5, -3.0, infinity, -infinity, not_a_number})
+    for (const double y : {0.0, -0.0, 1.0, -1.0, 2.5, -3.0, infinity, -infinity, not_a_number}) {
       const auto close = [](double a, double b) { return same(a, b) || std::abs(a - b) <= 4e-16 * std::abs(b); };
       EXPECT_PRED2(close, elementary::atan2(y, x), std::atan2(y, x)) << y << " " << x;
       EXPECT_PRED2(close, elementary::pow(x, y), std::pow(x, y)) << x << " " << y;
