@@ -273,7 +273,7 @@ class Biped final : public Motion<PerRobotAlgorithm<BipedRobot>> {
 
   /// Returns the derivative of the twist while the foot stands, by the accelerations of the joints. It does not contain
   /// a change of the stance foot.
-  Twist acceleration_of(const BipedRobot& r, double dt) const {
+  [[gnu::flatten]] Twist acceleration_of(const BipedRobot& r, double dt) const {
     const std::span<const JointPlace> joints = joints_[r.legs];
     const double* const before = rates_.data() + r.legs.begin;
     const auto foot = models_[r.model].legs[*r.stance_foot].relative(
