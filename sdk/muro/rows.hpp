@@ -6,19 +6,10 @@
 #include <cstring>
 #include <initializer_list>
 #include <type_traits>
-#include <utility>
 
 #include "muro/detail/row_iterator.hpp"
 
 namespace muro {
-
-namespace detail {
-
-/// The type of the elements of an array, a vector or a span.
-template <class Elements>
-using ElementOf = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(std::declval<const Elements&>()))>>;
-
-}  // namespace detail
 
 /// A copy of the struct at `from`, of which its maker knows the first `size` bytes; the other members have their
 /// default values.

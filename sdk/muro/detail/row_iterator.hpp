@@ -3,8 +3,14 @@
 
 #include <cstddef>
 #include <iterator>
+#include <type_traits>
+#include <utility>
 
 namespace muro::detail {
+
+/// The type of the elements of an array, a vector or a span.
+template <class Elements>
+using ElementOf = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(std::declval<const Elements&>()))>>;
 
 /// Returns element `i` of elements that lie `stride` bytes apart.
 template <class T>
